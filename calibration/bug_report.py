@@ -68,7 +68,7 @@ def write_bug_report(
 
 
 def _end_of(recording: Path, seconds: float, names: Names) -> tuple[bytes, list[str]]:
-    """The end of a recording, and what is in it, in lines."""
+    """Return the end of a recording, and what is in it, in lines."""
     ended = overview_of(recording).ended
     if ended is None:
         raise RecordingError(f"{recording}: holds nothing: name another recording, or --no-recording")

@@ -46,10 +46,10 @@ class StepProgress(Protocol):
         """Step ``number`` of ``of`` begins; the first is 1."""
 
     def end(self, result: StepResult, seconds: float) -> None:
-        """The step succeeded."""
+        """Tell that the step succeeded."""
 
     def skip(self, reason: str, seconds: float) -> None:
-        """The step failed, and the run continues without it."""
+        """Tell that the step failed, and that the run continues without it."""
 
 
 @dataclass(frozen=True)
@@ -110,7 +110,7 @@ def _resized(before: tuple[int, int], now: tuple[int, int]) -> DesktopError:
 
 
 def _named(step: CalibrationStep, error: McNestedError) -> McNestedError:
-    """The same error with the step's name, and a note that the profile is unchanged."""
+    """Return the same error with the step's name, and a note that the profile is unchanged."""
     return type(error)(f"{step.name}: {error} (the profile is as it was)")
 
 
@@ -137,7 +137,7 @@ class CalibrationProgress(StepProgress, Protocol):
     """Is notified of the progress of the guided run."""
 
     def doctor_done(self, checks: Sequence[Check]) -> None:
-        """The doctor is done, and every gate is passed."""
+        """Tell that the doctor is done, and that every gate is passed."""
 
 
 @dataclass(frozen=True)
@@ -188,7 +188,7 @@ def calibrate_all(
 
 
 def check_gates(checks: Sequence[Check]) -> None:
-    """DesktopError with the remedy of the first gate that fails."""
+    """Raise DesktopError with the remedy of the first gate that fails."""
     for check in checks:
         if check.status == "fail" and check.name in GATES:
             raise DesktopError(f"{check.name}: {check.detail}: {check.fix or 'run mc-nested doctor'}")
@@ -199,7 +199,7 @@ def _recover(context: CalibrationContext, profile: Profile) -> None:
 
 
 def _fingerprint(run: RunResult, devices: Devices, day: str) -> CalibratedTable:
-    """The game's state that the profile was calibrated for, as it is seen now."""
+    """Return the game's state that the profile was calibrated for, as it is seen now."""
     profile = run.profile
     scales = screen_for(profile, devices).seen_scales()
     return CalibratedTable(

@@ -11,7 +11,7 @@ from mc_nested.live.model.timing import TYPING_LOOK_S
 from mc_nested.live.profile.tables import Profile
 
 TRIES = 4
-"""How often a line is begun: on a busy machine its letters may come so late that the rest isn't typed."""
+"""How often a line is begun at most: on a busy machine its letters may come so late that the rest isn't typed."""
 
 
 class CommandConsole:
@@ -49,7 +49,7 @@ class CommandConsole:
         return reading
 
     def watch(self, is_so: Callable[[Reading], bool], seconds: float) -> Reading | None:
-        """The first reading within so many seconds for which ``is_so`` holds, or None."""
+        """Return the first reading within so many seconds for which ``is_so`` holds, or None."""
         deadline = Deadline(self._clock, seconds)
         while not is_so(reading := self.read()):
             if deadline.has_passed:

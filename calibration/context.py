@@ -86,7 +86,7 @@ def context_opener(opening: Opening, ask: Callable[[str], bool]) -> OpenContext:
 
 
 def ask_in_terminal(ask: Callable[[str], bool], say: Callable[[str], None], devices: Devices) -> Callable[[str], bool]:
-    """Asks a question outside the game. After a yes, waits until the person has switched back to the game."""
+    """Ask a question outside the game. After a yes, wait until the person has switched back to the game."""
 
     def ask_and_return(question: str) -> bool:
         is_yes = ask(question)

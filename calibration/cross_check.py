@@ -78,7 +78,7 @@ def cross_check(context: CalibrationContext, profile: Profile) -> StepResult:
 
 @contextmanager
 def _restored(clipboard: Clipboard) -> Iterator[None]:
-    """Restores the clipboard when the block is left, unless somebody else copied something meanwhile."""
+    """Restore the clipboard when the block is left, unless somebody else copied something meanwhile."""
     before = clipboard.read()
     try:
         clipboard.write(_MARK)
@@ -89,7 +89,7 @@ def _restored(clipboard: Clipboard) -> Iterator[None]:
 
 
 def _copied(connection: GameConnection, profile: Profile) -> tuple[float, ...]:
-    """x, y, z, yaw and pitch as F3+C copies them."""
+    """Return x, y, z, yaw and pitch as F3+C copies them."""
     controller, clock, clipboard, debug = (
         connection.controller,
         connection.devices.clock,
@@ -116,7 +116,7 @@ def _copied(connection: GameConnection, profile: Profile) -> tuple[float, ...]:
 
 
 def _differences(reading: Reading, copied: tuple[float, ...]) -> tuple[float, float]:
-    """The largest difference in blocks, and in degrees."""
+    """Return the largest difference in blocks, and in degrees."""
     if reading.xyz is None or reading.yaw is None or reading.pitch is None:
         raise UnreadableError("the debug screen shows no position: turn the whole of it on (F3)")
     x, y, z, yaw, pitch = copied

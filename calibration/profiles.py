@@ -30,13 +30,13 @@ BESIDE_NAME = (
 
 
 def named_profiles() -> list[Path]:
-    """The files of all named profiles, by name."""
+    """Return the files of all named profiles, by name."""
     files = (path for path in profile_folder().glob("*.toml") if path.is_file())
     return sorted(files, key=lambda path: path.stem)
 
 
 def named_profile(name: str) -> Path:
-    """The file of the profile of that name, whatever is in it; ProfileError if there is none."""
+    """Return the file of the profile of that name, whatever is in it; ProfileError if there is none."""
     for path in named_profiles():
         if path.stem == name:
             return path
@@ -45,7 +45,7 @@ def named_profile(name: str) -> Path:
 
 
 def files_of(profile: Path) -> list[Path]:
-    """What there is of a profile, its own file last."""
+    """Return what there is of a profile, its own file last."""
     folder, stem = profile.parent, profile.stem
     named = [folder / f"{stem}{ending}" for ending in (*BESIDE_NAME, *BESIDE_FILE)]
     broken = sorted(path for path in folder.iterdir() if path.name.startswith(f"{profile.name}.broken"))
@@ -71,7 +71,7 @@ def rename_profile(profile: Path, name: str) -> Path:
 
 
 def delete_profile(profile: Path) -> None:
-    """Delete a profile with all its files, of links the link alone; ProfileError if the disk refuses."""
+    """Delete a profile with all its files, but of a link only the link; ProfileError if the disk refuses."""
     try:
         for path in files_of(profile):
             if path.is_dir() and not path.is_symlink():
@@ -83,7 +83,7 @@ def delete_profile(profile: Path) -> None:
 
 
 def holds_a_copy(profile: Path) -> bool:
-    """Whether it alone knows where the copy is of what stood where its arena was built."""
+    """Return whether it alone knows where the copy is of what stood where its arena was built."""
     if note_path(profile).exists():
         return True
     try:
@@ -94,7 +94,7 @@ def holds_a_copy(profile: Path) -> bool:
 
 
 def names_of(files: Sequence[Path]) -> str:
-    """Files in words."""
+    """Name files in words."""
     return ", ".join(f"{path.name}/" if path.is_dir() else path.name for path in files)
 
 
@@ -120,7 +120,7 @@ class ProfileFacts:
 
 
 def facts_of(file: Path, look: Look) -> ProfileFacts:
-    """The facts of the profile in a file."""
+    """Return the facts of the profile in a file."""
     try:
         profile = load_profile(file)
     except ProfileError as error:
@@ -143,7 +143,7 @@ def facts_of(file: Path, look: Look) -> ProfileFacts:
 
 
 def _fit(name: str, profile: Profile, look: Look) -> tuple[bool | None, str | None]:
-    """Whether it fits, and why not."""
+    """Return whether it fits, and why not."""
     if profile.screen.font is not None and not profile.screen.font_path().is_file():
         return False, f"its font {profile.screen.font} is gone: mc-nested calibrate font --profile {name} --font JAR"
     if profile.calibrated is None:

@@ -28,7 +28,7 @@ def registered_steps(
     standing: Cell | None = None,
     path: Path | None = None,
 ) -> list[CalibrationStep]:
-    """All steps. Missing buttons and an unreachable clipboard don't end the run.
+    """Return all steps. Missing buttons and an unreachable clipboard don't end the run.
 
     ``font`` and ``sources`` are as in ``font.sources_for``. ``size``, ``standing`` and ``path`` are as in
     ``build_arena``. UserError as ``check_standing``.

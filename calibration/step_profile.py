@@ -18,7 +18,7 @@ from mc_nested.live.profile.tables import Profile
 
 
 def starting_profile(name_or_file: str | Path) -> tuple[Path, Profile]:
-    """The profile's file and its contents. If the file doesn't exist, a new profile, not written yet.
+    """Return the profile's file and its contents. If the file doesn't exist, a new profile, not written yet.
 
     ProfileError if the existing file can't be used, or no file can be written there.
     """
@@ -28,7 +28,7 @@ def starting_profile(name_or_file: str | Path) -> tuple[Path, Profile]:
 
 
 def check_writable(path: Path) -> None:
-    """ProfileError unless the file can be written. Creates its folder, and leaves nothing else behind."""
+    """Raise ProfileError unless the file can be written. Its folder is created; nothing else is left behind."""
     if path.is_dir():
         raise ProfileError(f"{path}: is a folder: name the profile otherwise, with --profile")
     try:

@@ -43,7 +43,7 @@ class Bench(Protocol):
         """Add the options, with their defaults."""
 
     def measure(self, options: argparse.Namespace) -> tuple[Figures, bool]:
-        """Figures, and whether they are right: nothing was wrong, every target is met.
+        """Return figures, and whether they are right: nothing was wrong, every target is met.
 
         Raises UserError where an option can't be, or something is missing.
         """

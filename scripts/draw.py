@@ -107,7 +107,7 @@ def draw_rehearsal(out: Path) -> None:
 
 @contextmanager
 def _calibrated(*options: str) -> Iterator[tuple[dict[str, str], Path, Path]]:
-    """A rehearsal window that was calibrated: the environment of what plays in it, its profile, and an empty folder."""
+    """Open a calibrated rehearsal window: the environment of what plays in it, its profile, and an empty folder."""
     prepare(lambda line: print(line, file=sys.stderr))
     with (
         signals_as_exit(),  # or an ended program would leave its window and its screen behind

@@ -25,7 +25,7 @@ ENDS_WITHIN_S = 20.0
 
 
 def main_python(extras: Sequence[str] = ()) -> Path:
-    """The environment's Python, with the project and the extras installed; exits with one line where that fails."""
+    """Return the environment's Python, with the project and extras installed; exit with one line if that fails."""
     if sys.version_info < OLDEST_PYTHON:
         sys.exit(f"Python {sys.version.split()[0]} is too old: run this with Python 3.10 or newer")
     python = ENVIRONMENT / ("Scripts/python.exe" if sys.platform == "win32" else "bin/python")
@@ -53,7 +53,7 @@ def install(python: Path, extras: Sequence[str], project: Sequence[str]) -> None
 def run(command: Sequence[str | Path], variables: Mapping[str, str] | None = None) -> int:
     """Run a command in the project's root, with these environment variables too, and return its exit code.
 
-    Ctrl+C ends it before it is raised.
+    After Ctrl+C the command is ended first; then KeyboardInterrupt is raised.
     """
     process = start(command, variables)
     try:
@@ -93,7 +93,7 @@ def _make_environment() -> None:
 
 
 def stamp_of(extras: Sequence[str]) -> str:
-    """What STAMP holds once the project is installed with these extras."""
+    """Return what STAMP holds once the project is installed with these extras."""
     sources = [(ROOT / name).read_bytes() for name in ("pyproject.toml", "constraints.txt")]
     return hashlib.sha256(b"".join(sources)).hexdigest() + " " + ",".join(sorted(extras))
 
@@ -104,7 +104,7 @@ def _pip(python: Path, *what: str) -> None:
 
 
 def _can_build_evdev() -> bool:
-    """Whether pynput's Linux dependency evdev, which comes as C source only, can be compiled here."""
+    """Return whether pynput's Linux dependency evdev, which comes as C source only, can be compiled here."""
     if not sys.platform.startswith("linux"):
         return True
     headers = (Path(sysconfig.get_paths()["include"]) / "Python.h", Path("/usr/include/linux/input.h"))

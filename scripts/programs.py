@@ -22,7 +22,7 @@ INSTALL_S = 600.0
 PATIENCE_S = 1800.0
 """Seconds to wait for another run: it may be fetching everything over a slow connection."""
 APT = Path("/var/lib/apt")
-"""Where apt has its lists: who updates them finds another one busy."""
+"""Where apt keeps its lists: only one process at a time can update them."""
 
 Say = Callable[[str], None]
 

@@ -25,21 +25,21 @@ class TruthReader:
         self._path = path
 
     def now(self) -> dict[str, Any]:
-        """All that the client says."""
+        """Return all that the client says."""
         found: dict[str, Any] = json.loads(self._path.read_text(encoding="utf-8"))
         return found
 
     def feet(self) -> tuple[float, float, float]:
-        """Where the player is."""
+        """Return where the player is."""
         x, y, z = self.now()["feet"]
         return x, y, z
 
     def built(self) -> dict[Block, str]:
-        """Every block that differs from the bare floor."""
+        """Return every block that differs from the bare floor."""
         return {(x, y, z): name for x, y, z, name in self.now()["built"]}
 
     def standing(self, arena: Arena) -> dict[Block, str]:
-        """The blocks in the region that a reset of the arena clears."""
+        """Return the blocks in the region that a reset of the arena clears."""
         return standing_in(arena, self.built())
 
 
@@ -71,7 +71,7 @@ class RehearsalWindow:
 
 @contextmanager
 def open_rehearsal(env: dict[str, str], folder: Path, *options: str) -> Iterator[RehearsalWindow]:
-    """A rehearsal on the display of ``env``, in front, with ``mc-nested rehearse``'s options and seed 0.
+    """Open a rehearsal on the display of ``env``, in front, with ``mc-nested rehearse``'s options and seed 0.
 
     Its debug screen shows what the tutorial asks for. What it writes is in ``folder``. RuntimeError with what it said
     if it doesn't open.
@@ -89,7 +89,7 @@ def open_rehearsal(env: dict[str, str], folder: Path, *options: str) -> Iterator
 
 
 def _with_target(folder: Path, options: tuple[str, ...]) -> tuple[str, ...]:
-    """These options, and from 1.21.9 on a debug-profile.json that shows the block looked at, too."""
+    """Return these options, and from 1.21.9 on a debug-profile.json that shows the block looked at, too."""
     if "--version" not in options or "--debug-profile" in options:
         return options
     from sim.client.game.debug_entries import TUTORIAL
@@ -115,7 +115,7 @@ def write_font(path: Path) -> None:
 
 
 def mc_nested(*arguments: str | Path, env: dict[str, str], timeout_s: float = 600.0) -> str:
-    """What the command prints; RuntimeError with what it says where it doesn't succeed."""
+    """Return what the command prints; RuntimeError with what it says if it doesn't succeed."""
     command = [sys.executable, "-m", "mc_nested.cli", *map(str, arguments)]
     done = subprocess.run(  # noqa: S603 - our own
         command, env={**env, "PYTHONPATH": str(ROOT)}, capture_output=True, text=True, timeout=timeout_s, check=False

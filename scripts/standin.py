@@ -111,7 +111,7 @@ def keeper_of(cache: Path) -> int | None:
 
 
 def _start_keeper(cache: Path) -> int | None:
-    """Leave a keeper behind that has started the game; the exit code where it couldn't."""
+    """Leave a keeper behind that has started the game; return the exit code if it couldn't."""
     state = cache / STATE
     state.unlink(missing_ok=True)  # of a keeper that was killed
     keeper = subprocess.Popen(  # noqa: S603 - our own

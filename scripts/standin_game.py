@@ -219,7 +219,7 @@ def main(cache: Path) -> int:
 
 
 def _release_terminal() -> None:
-    """Hold nobody's output open any longer: who started this process may be waiting for the end of it."""
+    """Let go of the terminal: whoever started this process may be waiting for the end of its output."""
     nothing = os.open(os.devnull, os.O_RDWR)
     for each in (0, 1, 2):
         os.dup2(nothing, each)

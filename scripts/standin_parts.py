@@ -67,7 +67,7 @@ def fetch_all(cache: Path, say: Say) -> None:
 
 
 def check_node() -> None:
-    """MissingError where Node is too old for the game server."""
+    """Raise MissingError if Node is too old for the game server."""
     asked = [NODE.required(), "--version"]
     answer = subprocess.run(asked, capture_output=True, text=True, timeout=30, check=False)  # noqa: S603 - fixed
     version = re.match(r"v(\d+)\.", answer.stdout)
@@ -77,7 +77,10 @@ def check_node() -> None:
 
 
 def install_locked(what: str, locked: Path, folder: Path, say: Say, log: Path) -> Path:
-    """Install with npm what the lock file in ``locked`` pins into ``folder``, unless it is there; its node_modules."""
+    """Install with npm into ``folder`` what the lock file in ``locked`` pins; return its node_modules.
+
+    What is there already is left as it is.
+    """
     lock = (locked / "package-lock.json").read_bytes()
     done = folder / "installed-lock.json"
     if not (done.exists() and done.read_bytes() == lock):
@@ -114,7 +117,7 @@ def fetch(pack: Pack, cache: Path, say: Say, log: Path) -> Path:
 
 
 def _unpack(archive: Path, wanted: re.Pattern[str], folder: Path) -> None:
-    """Unpack the plain files whose whole name matches, each to the name's first group under ``folder``."""
+    """Unpack the plain files whose whole name matches; each goes to its name's first group, under ``folder``."""
     # Not by tarfile's filters: Python 3.11.2, which is Debian 12's, has none.
     with tarfile.open(archive, "r:gz") as members:
         for member in members:

@@ -50,7 +50,7 @@ class SuiteCheck:
     """One row: a command of the environment, and about how many minutes it takes on two cores.
 
     ``variables`` are environment variables; ``downloads`` what it fetches on a new machine; ``is_beside`` whether it
-    runs beside the checks that follow, which wait more than they compute, and comes after them wherever both could run.
+    runs beside the checks that follow, which wait more than they compute, and gives way to them.
     """
 
     command: Sequence[str]
@@ -113,7 +113,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def announcement(checks: Mapping[str, SuiteCheck]) -> list[str]:
-    """What will be run, how long that takes, and what is fetched for it."""
+    """Say what will be run, how long that takes, and what is fetched for it."""
     rows = [f"  {name:<30} about {check.minutes:g} min" for name, check in checks.items()]
     beside = [check.minutes for check in checks.values() if check.is_beside]
     alone = sum(check.minutes for check in checks.values() if not check.is_beside)
@@ -138,7 +138,7 @@ class CheckOutcome:
 
 
 def run_all(checks: Mapping[str, SuiteCheck], programs: Path) -> dict[str, CheckOutcome]:
-    """Each check's outcome; one that runs beside others is shown after them."""
+    """Run each check, and return its outcome; one that runs beside others is shown after them."""
     ended: dict[str, tuple[int, float]] = {}
     with ExitStack() as stack:
         reports = Path(stack.enter_context(tempfile.TemporaryDirectory()))
@@ -161,12 +161,12 @@ def run_all(checks: Mapping[str, SuiteCheck], programs: Path) -> dict[str, Check
 
 
 def failed_tests(report: Path) -> list[str]:
-    """The tests that failed by pytest's report in JUnit's format; none where there is no report."""
+    """Return the tests that failed by pytest's report in JUnit's format; none where there is no report."""
     return [f"{module}::{name}" for module, name, fault in cases_in(report) if fault is not None]
 
 
 def cases_in(report: Path) -> list[tuple[str, str, str | None]]:
-    """Of each test that was run, as pytest's report says: its module, its name, and its failure if it failed."""
+    """Return each test that was run, as pytest's report says: its module, its name, and its failure if it failed."""
     if not report.exists():
         return []
     found: list[tuple[str, str, str | None]] = []
@@ -198,7 +198,7 @@ class BesideRun:
 
 @contextmanager
 def running_beside(command: Sequence[str | Path], variables: Mapping[str, str]) -> Iterator[BesideRun]:
-    """A command that gives way to others until the block ends, and ends with it."""
+    """Run a command that gives way to others until the block ends, and ends with it."""
     # nice counts among the processes of one session alone, so this gets none of its own.
     gives_way = ["nice", "-n", "19"] if shutil.which("nice") else []
     with tempfile.TemporaryDirectory() as folder:
@@ -212,7 +212,7 @@ def running_beside(command: Sequence[str | Path], variables: Mapping[str, str]) 
 
 
 def table(outcomes: Mapping[str, CheckOutcome]) -> list[str]:
-    """A row a check: whether it passed, and how long it took; below it the tests that failed."""
+    """Return a row a check: whether it passed, and how long it took; below it the tests that failed."""
     rows = []
     for name, outcome in outcomes.items():
         rows.append(f"{'failed' if outcome.code else 'passed'}  {name:<30} {outcome.seconds:6.0f} s")

@@ -24,7 +24,7 @@ LIBRARIES = (*OPENGL, "libxcursor1", "libxi6", "libxinerama1", "libxrandr2")
 """Debian's packages of what GLFW and OpenGL load."""
 
 WITH_THIS_PROCESS = ("setpriv", "--pdeathsig", "TERM", "--")
-"""What a command begins with that must not outlive the process that starts it, even where that one is killed."""
+"""The first words of a command that must end with the process that starts it, even if that is killed."""
 
 SIZE = (1400, 1000)
 PATIENCE_S = 10.0
@@ -45,7 +45,7 @@ def open_display(
     has_window_manager: bool = False,
     has_opengl: bool = True,
 ) -> Iterator[dict[str, str]]:
-    """The environment of programs on a new, empty display; what was started is ended after the block."""
+    """Open a new, empty display, and yield its programs' environment; what was started is ended after the block."""
     with ExitStack() as started:
         read, write = os.pipe()
         screen = f"{size[0]}x{size[1]}x24"
@@ -96,7 +96,7 @@ def running(
     log: Path | None = None,
     ended_with: Sequence[str] = WITH_THIS_PROCESS,
 ) -> Iterator[subprocess.Popen[bytes]]:
-    """A process, while the block and this process last; its output goes to ``log``, or nowhere."""
+    """Run a process while the block and this process last; its output goes to ``log``, or nowhere."""
     with ExitStack() as opened:
         output = opened.enter_context(log.open("wb")) if log else subprocess.DEVNULL
         process = subprocess.Popen(  # noqa: S603 - fixed commands of the scripts
@@ -125,7 +125,7 @@ def end(process: subprocess.Popen[bytes]) -> None:
 
 @contextmanager
 def adopting(is_ours: Callable[[str], bool] = lambda _name: True) -> Iterator[None]:
-    """In the block, programs whose parent has ended become this process's; after it, those of such a name are ended.
+    """Adopt programs whose parent has ended, during the block; after it, end those of such a name.
 
     An ended process stays listed until its parent, or else the system's first process, collects its status. In many
     containers the first process never does.

@@ -57,7 +57,7 @@ def _fingerprint() -> str:
 
 
 def _pip(scratch: Path, log: Path) -> Path:
-    """A pip of its own, beside no setuptools: so it can't build what it fetches."""
+    """Make a pip without setuptools: so it can't build what it fetches."""
     folder = scratch / "pip"
     if not run_logged([sys.executable, "-m", "venv", str(folder)], log):
         raise MissingError(f"no virtual environment could be made (see {log}): install the package python3-venv")
@@ -91,7 +91,7 @@ def _sources(pip: Path, folder: Path, log: Path) -> list[Path]:
 
 
 def _unpack_sources(sources: list[Path], folder: Path) -> None:
-    """Python itself into ``folder``, the packages into its site-packages."""
+    """Unpack Python itself into ``folder``, and the packages into its site-packages."""
     packages = _site_packages(folder)
     packages.mkdir(parents=True)
     for source in sources:
@@ -124,7 +124,7 @@ def _unpack_wheels(wheels: list[Path], folder: Path) -> None:
 
 
 def _repair(folder: Path) -> None:
-    """What Wine 8 lacks. The fifth, Microsoft's C library, came with the wheels."""
+    """Repair four things that Wine 8 lacks. The fifth, Microsoft's C library, came with the wheels."""
     (folder / "bcryptprimitives.dll").write_bytes(stub_dll())
     # platform.uname() never returns from it.
     (folder / "_wmi.pyd").unlink()
@@ -141,7 +141,7 @@ def _repair(folder: Path) -> None:
 
 
 def _install_project(folder: Path) -> None:
-    """The checkout as an editable install leaves it: a path, and the version."""
+    """Install the checkout as an editable install does: a path, and the version."""
     packages = _site_packages(folder)
     (packages / "mc_nested.pth").write_text(f"{windows_path(ROOT)}\n", encoding="utf-8")
     lines = (ROOT / "pyproject.toml").read_text(encoding="utf-8").splitlines()
@@ -157,5 +157,5 @@ def _site_packages(folder: Path) -> Path:
 
 
 def windows_path(path: Path) -> str:
-    """How a Windows program under Wine names a file of this system: Wine has ``/`` as drive Z."""
+    """Return how a Windows program under Wine names a file of this system: Wine has ``/`` as drive Z."""
     return "Z:" + str(path.resolve()).replace("/", "\\")

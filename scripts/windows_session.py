@@ -22,13 +22,13 @@ PATIENCE_S = 20.0
 START_S = 180.0
 """Seconds in which Wine must have started, or made its prefix, on a busy machine."""
 LAST_WORDS_S = 1.0
-"""Seconds after its end in which what a program printed has certainly come."""
+"""Seconds after a program's end by which all that it printed has certainly come."""
 
 WINDOWS = "win10"
 """The version that programs are told: Wine 8's own default is Windows 7, which Python 3.12 refuses."""
 
 _ENDED_WITH_THIS_PROCESS = ("setpriv", "--pdeathsig", "INT", "--")
-"""For Wine's server, which ends the programs of its prefix at SIGINT alone."""
+"""The signal for Wine's server, which ends the programs of its prefix only at SIGINT."""
 
 
 class SessionError(Exception):
@@ -69,7 +69,7 @@ class WindowsProgram:
 
 @contextmanager
 def printing(command: Sequence[str], *, cwd: Path, env: Mapping[str, str]) -> Iterator[WindowsProgram]:
-    """A program until the end of the block; then it is ended, if it still runs."""
+    """Yield a program until the end of the block; then it is ended, if it still runs."""
     with ExitStack() as opened:
         file = Path(opened.enter_context(tempfile.TemporaryDirectory(prefix="mc-nested-windows-"))) / "printed"
         # Pipes, since python.exe takes no file of this system for its output, and no closed input.
@@ -95,7 +95,7 @@ class Session:
 
     @contextmanager
     def started(self, *arguments: str, cwd: Path = ROOT, **env: str) -> Iterator[WindowsProgram]:
-        """The Windows Python with these arguments, until the end of the block; then it is ended, if it still runs."""
+        """Run the Windows Python with these arguments until the end of the block; then end it, if it still runs."""
         command = [*WITH_THIS_PROCESS, WINE.required(), str(self.cache / "python" / "python.exe"), *arguments]
         with printing(command, cwd=cwd, env={**self.env, **env}) as program:
             yield program
@@ -112,7 +112,7 @@ class Session:
 
 @contextmanager
 def open_session(cache: Path) -> Iterator[Session]:
-    """A desktop of its own on a free display, with the prefix in ``cache``; nothing of it is left after the block.
+    """Open a desktop of its own on a free display, with the prefix in ``cache``; after the block nothing is left.
 
     Raises:
         SessionError: a part of it did not start.
@@ -147,7 +147,7 @@ def make_prefix(cache: Path, say: Say) -> None:
 
 @contextmanager
 def _wine(cache: Path) -> Iterator[dict[str, str]]:
-    """A display, and Wine's server in the foreground: the environment of Wine and of the programs in it.
+    """Open a display, and Wine's server in the foreground; yield the environment of Wine and its programs.
 
     The server is kept between programs. At its end it ends every program of its prefix.
     """

@@ -16,7 +16,7 @@ _DIRECTORY = 40  # bytes of an export directory's header
 
 
 def stub_dll() -> bytes:
-    """The whole file: a 64-bit PE image whose only section is its export directory."""
+    """Return the whole file: a 64-bit PE image whose only section is its export directory."""
     exports = _export_directory()
     dos = b"MZ".ljust(0x3C, b"\0") + struct.pack("<I", 0x40)
     coff = b"PE\0\0" + struct.pack("<HHIIIHH", 0x8664, 1, 0, 0, 0, 240, 0x2022)

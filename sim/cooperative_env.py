@@ -14,7 +14,7 @@ def cooperative_env(
     starts: tuple[Cell, ...] | None = None,
     render_mode: str | None = None,
 ) -> CooperativeEnv:
-    """One simulated arena of a shipped scenario's name, a scenario file, or a Scenario.
+    """Return one simulated arena of a shipped scenario's name, a scenario file, or a Scenario.
 
     ``starts`` are the builders' start cells, in place of ``builders`` spread ones. ScenarioError if it can't be played.
     """

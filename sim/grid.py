@@ -51,7 +51,7 @@ class GridGame:
         return Outcome(self._cell, block)
 
     def snapshot(self) -> Arrays:
-        """The cell and the blocks, for ``restore``."""
+        """Return the cell and the blocks, for ``restore``."""
         return {"game_cell": np.array(self._cell), "game_placed": grid_of(self._placed, self._size)}
 
     def restore(self, snapshot: Mapping[str, NDArray[Any]]) -> None:
@@ -62,7 +62,7 @@ class GridGame:
 
 
 def arena_env(scenario: str | Scenario = "line", render_mode: str | None = None) -> ArenaEnv:
-    """One simulated arena of a shipped scenario's name, a scenario file, or a Scenario."""
+    """Return one simulated arena of a shipped scenario's name, a scenario file, or a Scenario."""
     loaded = scenario if isinstance(scenario, Scenario) else load_scenario(scenario)
     return ArenaEnv(GridGame(loaded), loaded, render_mode)
 
@@ -134,7 +134,7 @@ class GridVectorEnv(VectorEnv[Int64s, Int64s, Any]):
         return self._observations(), {}
 
     def step(self, actions: Int64s) -> tuple[Int64s, Float64s, Bools, Bools, dict[str, Any]]:
-        """One action, or NO_ACTION, in every arena whose episode runs; ``info["score"]`` is r_M if ``_score``.
+        """Take one action, or NO_ACTION, in every arena whose episode runs; ``info["score"]`` is r_M if ``_score``.
 
         With parts, the actions may be (R, 2): each beside the material to take in hand, and ``info`` says more (Info).
         """
@@ -157,7 +157,7 @@ class GridVectorEnv(VectorEnv[Int64s, Int64s, Any]):
         return self._observations(), rewards, self._terminated.copy(), self._truncated.copy(), info
 
     def render(self) -> tuple[Any, ...] | None:
-        """Every arena from above, as ArenaEnv renders it; None without a render mode."""
+        """Return every arena from above, as ArenaEnv renders it; None without a render mode."""
         if self.render_mode is None:
             return None
         cells = self._observations()[:, :2].tolist()
@@ -167,16 +167,19 @@ class GridVectorEnv(VectorEnv[Int64s, Int64s, Any]):
         )
 
     def cell(self, run: int) -> Cell:
-        """Where the agent stands in that arena."""
+        """Return where the agent stands in that arena."""
         x, y = divmod(int(self._position[run] - self._base[run]), self._side)
         return x - 1, y - 1
 
     def placed(self, run: int) -> frozenset[Cell]:
-        """The cells where a block landed in that arena since its last reset."""
+        """Return the cells where a block landed in that arena since its last reset."""
         return cells_of(self._cells(self._solid, run))
 
     def occupied(self) -> Bools:
-        """The cells where a block landed since each arena's last reset, (runs, size, size); arenas of one size."""
+        """Return the cells where a block landed since each arena's last reset, (runs, size, size).
+
+        All arenas must be of one size.
+        """
         return np.stack([self._cells(self._solid, run) for run in range(self.num_envs)])
 
     @property
@@ -185,7 +188,7 @@ class GridVectorEnv(VectorEnv[Int64s, Int64s, Any]):
         return self
 
     def snapshot(self) -> Arrays:
-        """Every arena as it stands, for ``restore``."""
+        """Return every arena as it stands, for ``restore``."""
         own = {name: getattr(self, name).copy() for name in self._STATE}
         return own | (self._tally.snapshot() if self._tally else {})
 
@@ -199,16 +202,16 @@ class GridVectorEnv(VectorEnv[Int64s, Int64s, Any]):
     _STATE = ("_solid", "_position", "_blocks_left", "_steps", "_score", "_terminated", "_truncated")
 
     def _index(self, cell: Cell) -> int:
-        """Where a cell is in its run's part of the flat array."""
+        """Return a cell's index in its run's part of the flat array."""
         return (cell[0] + 1) * self._side + cell[1] + 1
 
     def _cells(self, solid: Bools, run: int) -> Bools:
-        """The part of all arenas' flat array that is the run's cells, (x, y), without the border."""
+        """Return a view of the run's cells in the flat array, (x, y), without the border."""
         size = self.scenarios[run].size
         return solid.reshape(-1, self._side, self._side)[run, 1 : size + 1, 1 : size + 1]
 
     def _pays(self, tally: Tally, front: Int64s) -> Bools:
-        """Whether a block would pay there, (R,); it means nothing where none can land."""
+        """Return whether a block would pay there, (R,); it means nothing where none can land."""
         x, y = np.divmod(front - self._base, self._side)
         return tally.pays(x - 1, np.minimum(y - 1, self._side - 3))
 

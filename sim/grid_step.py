@@ -15,11 +15,11 @@ from mc_nested.compiled import compiled
 
 PLACING = np.array([action in PLACES for action in Action])
 FRONT = 1
-"""From a cell's index to that of the cell in front of it."""
+"""What to add to a cell's index to get that of the cell in front of it."""
 
 
 class Layout(NamedTuple):
-    """What stays: what each move adds to an index (actions,), the runs' first index (R,) and step limit (R,).
+    """What stays the same: what each move adds to an index (actions,), the runs' first index (R,) and step limit (R,).
 
     ``side`` is how many cells there are in a row, the border included.
     """
@@ -51,7 +51,7 @@ class Stepped(NamedTuple):
 
 @compiled()
 def all_exist(actions: Int64s, runs: Bools, count: int) -> bool:
-    """Whether each action (R,) of an arena that ``runs`` (R,) is one of so many."""
+    """Return whether each action (R,) of an arena that ``runs`` (R,) is one of so many."""
     exist = True
     for run in range(len(actions)):
         exist = exist and (not runs[run] or 0 <= actions[run] < count)

@@ -40,7 +40,7 @@ class TeamGrid:
         return outcomes
 
     def snapshot(self) -> Arrays:
-        """The cells and the blocks, for ``restore``."""
+        """Return the cells and the blocks, for ``restore``."""
         return {
             "team_game_cells": np.array(self._cells),
             "team_game_placed": grid_of(self._placed, self._team.scenario.size),
@@ -53,5 +53,5 @@ class TeamGrid:
 
 
 def team_arenas(team: Team, runs: int) -> TeamVectorEnv:
-    """So many simulated arenas, each with all builders of that team."""
+    """Return so many simulated arenas, each with all builders of that team."""
     return TeamVectorEnv([TeamGrid(team) for _ in range(runs)], team)

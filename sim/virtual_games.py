@@ -23,10 +23,10 @@ from sim.client.drawing.painter import SEEN
 from sim.client.game.world import VirtualWorld
 
 GUI_SCALE = 1
-"""The smallest: texts hide the least of the world."""
+"""The smallest GUI scale: its texts hide the least of the world."""
 
 PITCH = 53.0
-"""Degrees down at which the agents look: of the views that place right, one that shows most of the arena."""
+"""Degrees down at which the agents look. It is among the views that place right, and shows most of the arena."""
 
 _ORIGIN_X, _ORIGIN_Z = -20, 31
 
@@ -45,7 +45,7 @@ class VirtualPlay:
         return [clock.now() - began for clock, began in zip(self._clocks, self._began, strict=True)]
 
     def summary(self) -> dict[str, Any]:
-        """The game time of each game in seconds, and what each game's own log says."""
+        """Return the game time of each game in seconds, and what each game's own log says."""
         return {
             "game_s": [round(seconds, 3) for seconds in self.game_s],
             "games": [game.log.summary() for game in self._games],
@@ -56,7 +56,7 @@ class VirtualPlay:
 def open_virtual_games(
     scenarios: Sequence[Scenario], seed: int = 0, journal: Journal | None = None
 ) -> Iterator[list[LiveGame]]:
-    """A game for each scenario, on a virtual client of its own; closed after the block.
+    """Open a game for each scenario, on a virtual client of its own; each is closed after the block.
 
     Each has an arena as ``calibrate arena`` builds it: an obsidian floor, a border around. Where the scenario is
     smaller than that arena, the floor beside its cells is of the border's block.
@@ -83,7 +83,7 @@ def _game(scenario: Scenario, seed: int, journal: Journal | None) -> LiveGame:
 
 
 def built_arena(world: VirtualWorld, scenario: Scenario) -> Arena:
-    """The arena for a scenario, built into a world."""
+    """Build the arena for a scenario into a world, and return it."""
     arena = Arena.around((_ORIGIN_X, world.floor, _ORIGIN_Z), "south", size=size_for(scenario))
     border = border_block([material.block for material in scenario.materials])
     _fill(world, floor_of(arena), border)

@@ -35,7 +35,7 @@ def where_words(backend: Backend) -> str:
 def open_game(backend: Backend, scenario: Scenario, opening: Opening) -> Iterator[tuple[Game, Display | None]]:
     """Open the backend's game, and its window, if it has one; both are closed after the block.
 
-    ``opening`` says how a live game is opened; of it, a game on the virtual client takes the journal alone.
+    ``opening`` says how a live game is opened; a game on the virtual client takes only its journal.
 
     DesktopError or ProfileError, one line each if a live game can't be played.
     """

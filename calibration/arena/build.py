@@ -38,7 +38,7 @@ from mc_nested.live.vision.game_screen import seen_gui_scale
 
 
 def build_question(arena: Arena, ground: GroundSurvey, old: Arena | None, materials: Sequence[str]) -> str:
-    """The question before anything is changed: what stands there, and what will be done."""
+    """Return the question before anything is changed: what stands there, and what will be done."""
     low, high = arena.region
     stands = {True: "There is only air", False: "Something stands there", None: "What stands there is not known"}
     parts = [
@@ -62,7 +62,7 @@ def build_question(arena: Arena, ground: GroundSurvey, old: Arena | None, materi
 
 
 def undo_hint(arena: Arena) -> str:
-    """The game's command that restores what stood there before."""
+    """Return the game's command that restores what stood there before."""
     if arena.copied_to is None:
         return "No copy was kept"
     box = box_of(arena)
@@ -70,7 +70,7 @@ def undo_hint(arena: Arena) -> str:
 
 
 def build_summary(arena: Arena, ground: GroundSurvey, undo: str) -> list[str]:
-    """What was built, one line each; ``undo`` is the command that puts back what stood there."""
+    """Return what was built, one line each; ``undo`` is the command that puts back what stood there."""
     low, high = arena.region
     floor = f"the floor of {ground.floor} stayed" if ground.keeps_floor else f"the floor is {FLOOR}"
     lines = [f"Arena from {low} to {high}, facing {arena.facing}; {floor}, the border was seen on all four sides."]
@@ -116,7 +116,7 @@ def calibrate_built_arena(
 
 
 def shipped_materials() -> tuple[str, ...]:
-    """The blocks that the shipped scenarios are built of, in the order of the hotbar."""
+    """Return the blocks that the shipped scenarios are built of, in the order of the hotbar."""
     return tuple(material.block for material in load_scenario("line").materials)
 
 
@@ -207,7 +207,7 @@ def build_arena(
 
 
 def _first_copy(queries: BlockQueries, arena: Arena, earlier: Sequence[Arena]) -> Block | None:
-    """The existing copy of what stood there before the first arena was built in the same box, if there is one."""
+    """Return the copy, if there is one, of what stood there before the first arena was built in the same box."""
     for old in earlier:
         if old.copied_to and box_of(old) == box_of(arena) and not is_copy_gone(queries, old):
             return old.copied_to
@@ -215,12 +215,12 @@ def _first_copy(queries: BlockQueries, arena: Arena, earlier: Sequence[Arena]) -
 
 
 def _overlaps_copied(queries: BlockQueries, old: Arena, arena: Arena) -> bool:
-    """Whether this arena overlaps an old one whose copy still exists."""
+    """Return whether this arena overlaps an old one whose copy still exists."""
     return do_overlap(box_of(old), box_of(arena)) and not is_copy_gone(queries, old)
 
 
 def _copied(console: CommandConsole, queries: BlockQueries, arena: Arena, to: Block) -> Arena:
-    """Copy the arena's box; the arena with that copy."""
+    """Copy the arena's box; return the arena with that copy."""
     box = box_of(arena)
     console.send(copy_command(box, to))
     if not queries.are_alike(box, to):

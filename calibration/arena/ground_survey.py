@@ -51,12 +51,12 @@ class LookAroundResult:
 
 
 def cells_to_look_at(size: int) -> list[Cell]:
-    """Cells spread over an arena."""
+    """Return cells spread over an arena."""
     return [(size * x // 15, size * y // 15) for y in ALONG for x in ACROSS]
 
 
 def is_in_sight(cell: Cell, standing: Cell) -> bool:
-    """Whether a cell's floor can be seen from ``standing``: in an arena of 15 cells a side, each can from anywhere."""
+    """Return whether a cell's floor can be seen from ``standing``: always, in an arena of 15 cells a side."""
     return math.hypot(math.dist(cell, standing), EYE_HEIGHT) <= SIGHT
 
 
@@ -110,7 +110,7 @@ _FIRST_PITCH, _PITCHES = 20, 40
 
 
 class BlockQueries:
-    """Each answer is True, False, or None if unknown.
+    """Questions about blocks, asked by commands: each answer is True, False, or None if unknown.
 
     Args:
         console: sends the commands and watches the debug screen.
@@ -126,14 +126,14 @@ class BlockQueries:
         self._queries_sent = 0
 
     def is_air(self, block: Block) -> bool | None:
-        """Whether a block is air."""
+        """Return whether a block is air."""
         xyz = " ".join(map(str, block))
         if self._is_1_12:
             return True if self._turns_view(f"/execute @s ~ ~ ~ detect {xyz} minecraft:air 0") else None
         return self._if_or_unless(f"block {xyz} minecraft:air")
 
     def are_alike(self, box: Box, other: Block) -> bool | None:
-        """Whether a box holds the same blocks as the box of its size whose lowest corner is ``other``."""
+        """Return whether a box holds the same blocks as the box of its size whose lowest corner is ``other``."""
         xyz = " ".join(map(str, other))
         if not self._is_1_12:
             return self._if_or_unless(f"blocks {box_text(box)} {xyz} all")
@@ -146,7 +146,7 @@ class BlockQueries:
         return True if seen else None
 
     def is_uniform(self, box: Box) -> bool | None:
-        """Whether a flat box is all of one block: it equals itself shifted by one block, and so does its first row."""
+        """Return whether a flat box is all of one block: it and its first row equal themselves shifted by one block."""
         (x, y, z), (other_x, _, other_z) = box
         along = self.are_alike(((x, y, z), (other_x - 1, y, other_z)), (x + 1, y, z))
         return along and self.are_alike(((x, y, z), (x, y, other_z - 1)), (x, y, z + 1))
@@ -212,7 +212,7 @@ def survey_ground(
 
 
 def is_copy_gone(queries: BlockQueries, arena: Arena) -> bool:
-    """Whether the arena's copy is gone: only air is there, as above it. False if that is unknown."""
+    """Return whether the arena's copy is gone: only air is there, as above it. False if that is unknown."""
     if arena.copied_to is None:
         return True
     copy = box_at(box_of(arena), arena.copied_to)
@@ -224,7 +224,7 @@ def is_copy_gone(queries: BlockQueries, arena: Arena) -> bool:
 
 
 def _free_copy_position(queries: BlockQueries, arena: Arena, version: str) -> Block | None:
-    """Where the copy can lie: a box that is all air, since it equals the box above it and has air at its corner."""
+    """Return where the copy can lie: a box that equals the box above it and has air at its corner, so is all air."""
     box = box_of(arena)
     for corner in copy_positions(arena, version):
         copy = box_at(box, corner)
@@ -235,7 +235,7 @@ def _free_copy_position(queries: BlockQueries, arena: Arena, version: str) -> Bl
 
 
 def _why_unseen(reading: Reading, pitch: float, version: str) -> str:
-    """Why no block is seen after a teleport that should look at the ground, and what to do."""
+    """Return why no block is seen after a teleport that should look at the ground, and what to do."""
     if reading.pitch is None or abs(reading.pitch - pitch) > ANGLE_TOLERANCE_DEG:
         return "a teleport had no effect: allow cheats"
     return f"{NONE_NAMED}: {have_block_named(version)}"

@@ -83,7 +83,7 @@ def mark_arena(
 def load_profile_with_font(
     profile_name: str | Path, standing: Cell, size: int, font: Path | None
 ) -> tuple[Path, Profile]:
-    """The profile's file and the profile, with that font recorded in it. No window is needed.
+    """Return the profile's file and the profile, with that font recorded in it. No window is needed.
 
     UserError as ``check_standing``, or if the profile or font can't be used.
     """
@@ -99,7 +99,7 @@ def load_profile_with_font(
 
 
 def check_standing(standing: Cell, size: int) -> None:
-    """UserError for a size that no arena in a game has, or a cell outside the arena."""
+    """Raise UserError for a size that no arena in a game has, or for a cell outside the arena."""
     if not DEFAULT_SIZE <= size <= LARGEST_SIZE:
         raise UserError(
             f"an arena of {size} x {size} cells: choose {DEFAULT_SIZE} to {LARGEST_SIZE} cells along each side; a "
@@ -110,7 +110,7 @@ def check_standing(standing: Cell, size: int) -> None:
 
 
 def arena_from_reading(reading: Reading, standing: Cell, size: int) -> Arena:
-    """The arena of a player who stands on cell ``standing`` and looks forward. UserError if there can be none.
+    """Return the arena of a player who stands on cell ``standing`` and looks forward. UserError if there can be none.
 
     ``size`` is the number of cells along each side.
     """
@@ -131,7 +131,7 @@ def arena_from_reading(reading: Reading, standing: Cell, size: int) -> Arena:
 
 
 def mark_question(arena: Arena) -> str:
-    """The question before the region is marked. What stands in it can't be seen from where the player stands."""
+    """Return the question before the region is marked. What stands in it can't be seen from where the player stands."""
     low, high = arena.region
     size = " x ".join(str(high[axis] - low[axis] + 1) for axis in (0, 2, 1))
     return (

@@ -1,4 +1,4 @@
-"""The commands that build an arena. Pure."""
+"""The commands that build an arena, as pure functions."""
 
 from collections.abc import Sequence
 
@@ -29,7 +29,7 @@ HEIGHTS = (64, 32, 16)
 
 
 def copy_positions(arena: Arena, version: str) -> list[Block]:
-    """Lowest corners where a copy of the box fits in the sky above it, below the world's top."""
+    """Return lowest corners where a copy of the box fits in the sky above it, below the world's top."""
     low, high = box_of(arena)
     top = 319 if version_numbers(version) >= (1, 18) else 255
     tall = high[1] - low[1] + 1
@@ -37,18 +37,18 @@ def copy_positions(arena: Arena, version: str) -> list[Block]:
 
 
 def box_at(box: Box, corner: Block) -> Box:
-    """The box moved so that its lowest corner is there."""
+    """Return the box moved so that its lowest corner is there."""
     low, high = box
     return corner, (corner[0] + high[0] - low[0], corner[1] + high[1] - low[1], corner[2] + high[2] - low[2])
 
 
 def do_overlap(one: Box, other: Box) -> bool:
-    """Whether two boxes share a block."""
+    """Return whether two boxes share a block."""
     return all(one[0][axis] <= other[1][axis] and other[0][axis] <= one[1][axis] for axis in range(3))
 
 
 def is_good_floor(floor_id: str) -> bool:
-    """Whether a block, as the debug screen names it, makes a good floor."""
+    """Return whether a block, as the debug screen names it, makes a good floor."""
     return not any(part in floor_id for part in BAD_FLOORS)
 
 
@@ -63,7 +63,7 @@ def copy_command(box: Box, to: Block) -> str:
 
 
 def build_commands(profile: Profile, arena: Arena, materials: Sequence[str], *, builds_floor: bool) -> list[str]:
-    """Floor, air, border, game mode, mobs, time, weather, materials, in the syntax of the profile's version."""
+    """Return commands for floor, air, border, game mode, mobs, time, weather, materials, in the version's syntax."""
     dialect = profile.game.dialect
     return [
         *([fill_command(floor_of(arena), FLOOR)] if builds_floor else []),
@@ -79,18 +79,18 @@ def build_commands(profile: Profile, arena: Arena, materials: Sequence[str], *, 
 
 
 def gamerules(version: str) -> tuple[str, ...]:
-    """The gamerules for time, weather and mobs, by their names in that version."""
+    """Return the gamerules for time, weather and mobs, by their names in that version."""
     if version_numbers(version) >= (1, 21, 11):
         return "advance_time", "advance_weather", "spawn_mobs"
     return "doDaylightCycle", "doWeatherCycle", "doMobSpawning"
 
 
 def box_text(box: Box) -> str:
-    """A box as commands write it."""
+    """Return a box as commands write it."""
     return " ".join(str(part) for corner in box for part in corner)
 
 
 def volume(box: Box) -> int:
-    """Blocks in a box."""
+    """Return how many blocks a box has."""
     low, high = box
     return (high[0] - low[0] + 1) * (high[1] - low[1] + 1) * (high[2] - low[2] + 1)

@@ -28,12 +28,12 @@ from mc_nested.toml_file import read_toml_text
 
 
 def note_path(profile: Path) -> Path:
-    """The file of the note beside a profile's file."""
+    """Return the file of the note beside a profile's file."""
     return profile.with_name(f"{profile.name}.ground")
 
 
 def read_copy_note(profile: Path) -> Profile | None:
-    """The profile in the note, including its arena's copy; None without a note, ProfileError if it is broken."""
+    """Return the profile in the note, including its arena's copy; None without a note, ProfileError if it is broken."""
     file = note_path(profile)
     return parse_profile(read_toml_text(file, ProfileError), str(file)) if file.is_file() else None
 
@@ -68,7 +68,7 @@ def remove_saved_copy_note(saved: Profile, profile: Path) -> None:
 
 
 def undo_command(profile: Path) -> str:
-    """The shell command that undoes the arena."""
+    """Return the shell command that undoes the arena."""
     name = profile.stem if profile == profile_path(profile.stem) else str(profile)
     quoted = f'"{name}"' if " " in name else name
     return f"mc-nested calibrate arena --undo --profile {quoted}"
@@ -76,7 +76,7 @@ def undo_command(profile: Path) -> str:
 
 @contextmanager
 def undo_hint_on_error(profile: Path) -> Iterator[None]:
-    """If the block fails and a note is there, the error's message also says how to undo the arena."""
+    """Add to the error's message how to undo the arena, if the block fails and a note is there."""
     try:
         yield
     except McNestedError as error:
@@ -88,7 +88,7 @@ def undo_hint_on_error(profile: Path) -> Iterator[None]:
 def undo_built_arena(profile_name: str | Path, open_context: OpenContext) -> tuple[StepResult, Path]:
     """Undo a profile's arena and write the profile. Returns the result and the profile's file.
 
-    An arena of an interrupted calibration, which only the note beside the profile knows, is undone first.
+    If a calibration was interrupted, only the note beside the profile knows its arena: that one is undone first.
     """
     path = profile_path(profile_name)
     noted = read_copy_note(path)

@@ -32,7 +32,7 @@ def record_by_hand(
     skip: str,
     say: Callable[[str], None],
 ) -> list[RecordedPoint]:
-    """The wanted points, each recorded at the next hotkey; skipped ones are left out.
+    """Record each wanted point at the next hotkey, and return them; skipped ones are left out.
 
     ``wanted`` maps each point's name to a description of where it is. ``next_key`` waits for the hotkey or ``skip``.
     """
@@ -64,7 +64,7 @@ def _under_pointer(name: str, display: Display, pointer: Pointer, say: Callable[
 
 
 def largest_scale(width: int, height: int) -> int:
-    """The GUI scale, up to 4, that the game picks by default in a window of that size."""
+    """Return the GUI scale, up to 4, that the game picks by default in a window of that size."""
     return max(1, min(width // 320, height // 240, 4))
 
 
@@ -171,7 +171,7 @@ def find_clicks(context: CalibrationContext, profile: Profile, by_hand: ByHand |
 
 
 def find_clicks_unattended(context: CalibrationContext, profile: Profile) -> StepResult:
-    """As ``find_clicks``, without recording by hand. NotConfirmedError if nothing was found."""
+    """Do as ``find_clicks``, without recording by hand. NotConfirmedError if nothing was found."""
     result = find_clicks(context, profile)
     if not result.points:
         raise NotConfirmedError(f"{result.lines[0]}: record them by hand with mc-nested calibrate clicks")
@@ -179,7 +179,7 @@ def find_clicks_unattended(context: CalibrationContext, profile: Profile) -> Ste
 
 
 def picture_file(profile: Path) -> Path:
-    """The file of the picture that shows a profile's points."""
+    """Return the file of the picture that shows a profile's points."""
     return profile.with_name(f"{profile.stem}-clicks.png")
 
 
@@ -194,7 +194,7 @@ def _walk_menus(walk: MenuWalk, context: CalibrationContext) -> None:
 
 
 def _result(profile: Profile, notes: Sequence[str], points: Sequence[RecordedPoint], scale: int | None) -> StepResult:
-    """The profile with these points, recorded at that GUI scale. Without points, one line that says why."""
+    """Return the profile with these points, recorded at that GUI scale. Without points, one line that says why."""
     if not points:
         return StepResult(STEP, profile, ("; ".join(("no button was found", *notes[:1])),), 0)
     lines = [f"{point.name}: at {point.at[0]:.4f}, {point.at[1]:.4f} of the window" for point in points]

@@ -35,8 +35,8 @@ HOVER_S = 0.2
 """From moving the mouse until the picture shows the button highlighted."""
 
 OWN = "Open to LAN"
-"""To 26.2 the Game Menu has this button, and only in a world that nobody else can be in; from 26.3 on none tells, and
-the window's title says whose world it is (FACTS: Screens and their buttons)."""
+"""To 26.2 the Game Menu has this button only in a world that nobody else can be in. From 26.3 on no button tells that,
+but the window's title does (FACTS: Screens and their buttons)."""
 
 _BUTTON = (100, 10)
 """GUI pixels from the middle of the largest button to its sides: a button is opaque."""
@@ -47,7 +47,9 @@ the row's end; and the row's height."""
 
 
 class MenuWalk:
-    """The points found on a walk. Starts once the game is in front, in its world, with a readable debug screen.
+    """A walk through the menus, and the points found on it.
+
+    It starts once the game is in front, in its world, with a readable debug screen.
 
     Raises (all methods): NotInFrontError, LiveError and errors of the input controller, one line each.
     """
@@ -99,7 +101,7 @@ class MenuWalk:
         self._return()
 
     def _open_pause(self) -> bool:
-        """Press Esc in the world. Returns whether the Game Menu is seen."""
+        """Press Esc in the world, and return whether the Game Menu is seen."""
         deadline = Deadline(self._clock, MENU_S)
         while (name := self._recovery.screen_name()) != "pause":
             if deadline.has_passed:
@@ -165,7 +167,7 @@ class MenuWalk:
         self._find(PLAY_IT, (PLAY,))
 
     def _topmost_world(self, frame: Frame) -> tuple[int, int] | None:
-        """A pixel on the first world's name: the topmost white text in the list's first row."""
+        """Return a pixel on the first world's name: the topmost white text in the list's first row."""
         scale, top = self.scale, 32 if self._game.dialect == "1.12" else 48
         middle = -(-self._size[0] // scale) // 2
         left, right, height = middle + _ROW[0], middle + _ROW[1], _ROW[2]
@@ -186,7 +188,7 @@ class MenuWalk:
         self.points[name] = RecordedPoint(name, record_point(name, frame, pixel, self.scale).at, frame)
 
     def _picture(self) -> Frame:
-        """A picture of the window; LiveError if its size has changed."""
+        """Return a picture of the window; LiveError if its size has changed."""
         frame = self._display.grab()
         self._check_size((int(frame.shape[1]), int(frame.shape[0])))
         return frame
@@ -215,7 +217,7 @@ class MenuWalk:
 
 
 def _button_region(button: MenuButton) -> Region:
-    """The part of the picture that the button covers."""
+    """Return the part of the picture that the button covers."""
     x, y = button.middle or (0, 0)
     wide, high = _BUTTON[0] * button.scale, _BUTTON[1] * button.scale
     return Region(x - wide, y - high, 2 * wide, 2 * high)

@@ -36,7 +36,7 @@ class RecordedPoint:
     frame: Frame
 
     def click_point(self, scale: int) -> ClickPoint:
-        """The point as a ClickPoint, at that GUI scale."""
+        """Return the point as a ClickPoint, at that GUI scale."""
         height, width = self.frame.shape[:2]
         pixel = min(round(self.at[0] * width), width - 1), min(round(self.at[1] * height), height - 1)
         return dataclasses.replace(record_point(self.name, self.frame, pixel, scale), at=self.at)
@@ -52,12 +52,12 @@ _TEXT_FONT = cv2.FONT_HERSHEY_SIMPLEX
 
 
 def picture_of_points(points: Sequence[RecordedPoint]) -> Frame:
-    """The recorded screens below each other, each with its point marked and labelled: (height, TILE_WIDTH, 3)."""
+    """Draw the recorded screens below each other, each with its point marked and labelled: (height, TILE_WIDTH, 3)."""
     return np.concatenate([_tile(point) for point in points])
 
 
 def picture_of_screen(points: ClickPoints, frame: Frame) -> Frame:
-    """One screen with all points marked, and below it their pictures: green if the two look the same, else red."""
+    """Draw a screen with all points marked and their pictures below: green if the two look the same, else red."""
     drawing: Frame = frame.copy()
     size = (int(frame.shape[1]), int(frame.shape[0]))
     rows = [drawing]

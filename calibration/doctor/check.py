@@ -5,7 +5,7 @@ from enum import Enum
 from typing import Literal
 
 Status = Literal["pass", "warn", "fail", "skip"]
-"""Good; works, but not always; keeps the agent from playing; can't be known now."""
+"""In this order: good; works, but not always; keeps the agent from playing; can't be known now."""
 
 FIX = "close the game and run mc-nested doctor --fix"
 """What to do about a file of the game's that the doctor can mend."""
@@ -47,7 +47,7 @@ class CheckName(str, Enum):
     INPUT = "input"
 
     def __str__(self) -> str:
-        """The name as shown."""
+        """Return the name as shown."""
         return self.value
 
 
@@ -62,6 +62,6 @@ class Check:
 
 
 def check_from_message(name: CheckName, status: Status, message: str) -> Check:
-    """The check of an error or of a reading's problem, whose message is what is wrong, a colon, and what to do."""
+    """Return the check of an error or a problem, whose message is what is wrong, a colon, and what to do."""
     detail, _, fix = message.partition(": ")
     return Check(name, status, detail, fix)

@@ -17,10 +17,10 @@ _SEEN = (CheckName.POSITION_LINE, CheckName.TARGET_LINE)
 def installed_version(
     in_title: str | None, folder: GameFolder | None, options: OptionsTxt | None, calibrated: str | None
 ) -> str | None:
-    """The version that is installed, as far as its debug screen's entries go.
+    """Return the version that is installed, as far as its debug screen's entries go.
 
-    By the window's title, else as the launcher records it, else as the game wrote it into options.txt; else the one
-    that was calibrated. None if nothing says.
+    It is taken from the window's title, else from the launcher's records, else from options.txt, where the game wrote
+    it, else from the calibrated profile. None if nothing says.
     """
     if in_title is not None:
         return in_title
@@ -33,7 +33,7 @@ def installed_version(
 def entries_row(
     folder: GameFolder | None, version: str | None, known: Mapping[CheckName, Check]
 ) -> tuple[DebugProfile | None, Check]:
-    """What the game's debug-profile.json says, if this version has one, and its check.
+    """Return what the game's debug-profile.json says, if this version has one, and its check.
 
     ``known`` are the checks of what the window shows: what is seen there is on, whatever a file says.
     """
@@ -66,9 +66,9 @@ def _judged(profile: DebugProfile) -> Check:
 
 
 def target_row_by_entries(profile: DebugProfile | None, known: Mapping[CheckName, Check]) -> Check | None:
-    """The check of a looked-at line that isn't seen, and whose entry is off; else None.
+    """Return the check of a looked-at line that isn't seen, and whose entry is off; else None.
 
-    Where it is off, "no block is looked at" says nothing, wherever the player looks.
+    With that entry off, no block is seen wherever the player looks: the advice to look at one would be wrong.
     """
     row, entries = known.get(CheckName.TARGET_LINE), known.get(CheckName.DEBUG_ENTRIES)
     if profile is None or row is None or entries is None or row.status == "pass" or entries.status != "fail":

@@ -30,7 +30,7 @@ from mc_nested.live.profile.tables import Profile
 class Examination:
     """All checks, in the order of ``CheckName``, and what a repair needs to know.
 
-    ``folder`` and ``options`` are the game's. ``is_window_closed`` is whether the desktop has no window of the game,
+    ``folder`` and ``options`` are the game's. ``is_window_closed`` is true if the desktop has no window of the game,
     None if there was no desktop to look at. ``processes`` are the running programs, None if unknown. ``entries`` is
     what the game's debug-profile.json says, ``data_version`` that of the installed version's jar; None if unknown.
     """
@@ -115,7 +115,7 @@ def _examine_window(
     say: Callable[[str], None],
     named_font: Path | None,
 ) -> None:
-    """The checks of an open window. DesktopError if it closes; the checks done by then stay."""
+    """Examine an open window, and record its checks. DesktopError if it closes; the checks done by then stay."""
     settings = profile or Profile()
     version = version_in(devices.display.title()) or settings.game.version
     font, check = font_row(profile, system, version, named_font)
@@ -143,7 +143,7 @@ def _examine_files(
     folder: GameFolder | None,
     named_font: Path | None,
 ) -> OptionsTxt | None:
-    """The checks of files, with what the window has shown, if it was seen. Returns the options, if they were read."""
+    """Examine files, with what the window has shown, if it was seen, and return the options, if they were read."""
     snapshot = findings.snapshot
     if CheckName.FONT not in findings.checks:
         font, check = font_row(profile, system, _version(snapshot, profile), named_font)
@@ -163,7 +163,7 @@ def _examine_files(
 def _examine_entries(
     profile: Profile | None, findings: _Findings, folder: GameFolder | None, options: OptionsTxt | None
 ) -> DebugProfile | None:
-    """The checks of the debug screen's entries, with what the window has shown. Returns what their file says."""
+    """Examine the debug screen's entries, with what the window has shown, and return what their file says."""
     calibrated = profile.calibrated.version if profile and profile.calibrated else None
     in_title = version_in(findings.snapshot.window.title) if findings.snapshot else None
     version = installed_version(in_title, folder, options, calibrated)
@@ -175,19 +175,19 @@ def _examine_entries(
 
 
 def _data_version(system: System, version: str) -> int | None:
-    """The data version that the client's jar of that version says to be of, if there is one."""
+    """Return the data version that the client's jar of that version says to be of, if there is one."""
     jars = client_jars(system, version)[:1]
     return next((data_version_in(jar) for jar in jars if jar_version(jar) == version), None)
 
 
 def _version(snapshot: WindowSnapshot | None, profile: Profile | None) -> str | None:
-    """The game's version: by its window's title, else as it was calibrated."""
+    """Return the game's version: by its window's title, else as it was calibrated."""
     in_title = version_in(snapshot.window.title) if snapshot else None
     return in_title or (profile.calibrated.version if profile and profile.calibrated else None)
 
 
 def _folder(system: System, version: str | None, processes: Sequence[Process] | None) -> GameFolder | None:
-    """The folder of the running game, if that is known, else the likeliest one."""
+    """Return the folder of the running game, if that is known, else the likeliest one."""
     candidates = game_folders(system, version)
     for played in folders_played(processes or ()):
         if folder := next((each for each in candidates if is_same_folder(each.path, played)), None):

@@ -90,7 +90,7 @@ def _undone(step: Step) -> str:
 
 
 def _is_on(snapshot: WindowSnapshot) -> bool:
-    """Whether the debug screen is on: an entry set to Always is shown without it, too."""
+    """Return whether the debug screen is on: an entry set to Always is shown without it, too."""
     return snapshot.contents is not None and snapshot.contents.line in (POSITION, REDUCED)
 
 
@@ -98,7 +98,7 @@ PROBE = "mc-nested doctor"
 
 
 def clipboard_row(clipboard: Clipboard | None) -> Check:
-    """Try the clipboard out; None if there is none."""
+    """Try the clipboard out, and return its check; None if there is none."""
     row = CheckName.CLIPBOARD
     if clipboard is None:
         return Check(row, "skip", "not looked at")

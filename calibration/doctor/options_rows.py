@@ -1,6 +1,6 @@
 """The checks of options.txt: where it is, and each option that may keep an agent from playing.
 
-On some of them it depends that a command can be typed, and be seen to be typed.
+Some of them decide whether a command can be typed, and whether it can be seen on the screen.
 """
 
 from collections.abc import Mapping
@@ -27,13 +27,13 @@ FAINT = 0.3
 
 
 def chat_rows(options: OptionsTxt) -> list[Check]:
-    """The check of each of these options."""
+    """Return the check of each of these options."""
     values = options.values
     return [_visibility(values.get(_VISIBILITY)), _background(values), _friends(values.get(_FRIENDS))]
 
 
 def chat_mends(options: OptionsTxt) -> dict[str, str]:
-    """Safe values of the options whose check isn't passed."""
+    """Return safe values of the options whose check isn't passed."""
     safe = {
         CheckName.CHAT_VISIBILITY: (_VISIBILITY, "0"),
         CheckName.TEXT_BACKGROUND: (_CHAT_ONLY, "true"),
@@ -54,7 +54,7 @@ def _visibility(value: str | None) -> Check:
 
 
 def _background(values: Mapping[str, str]) -> Check:
-    """What is typed has the chosen opacity behind it only where the text background is set to be everywhere."""
+    """Check the text background: typed text has the chosen opacity behind it only if that is set to be everywhere."""
     row, opacity = CheckName.TEXT_BACKGROUND, values.get(_OPACITY)
     if opacity is None:
         return Check(row, "skip", "the file doesn't say: this version may not have it")
@@ -71,7 +71,7 @@ def _background(values: Mapping[str, str]) -> Check:
 
 
 def _friends(value: str | None) -> Check:
-    """The key that opens the list of friends, at once, in the world and in the game's menus."""
+    """Check the key that at once opens the list of friends, in the world and in the game's menus."""
     row = CheckName.FRIENDS_KEY
     if value is None:
         return Check(row, "skip", "the file doesn't say: this version may not have it")
@@ -127,7 +127,7 @@ _AS_GUI = -1
 
 
 def options_row(folder: GameFolder | None) -> tuple[OptionsTxt | None, Check]:
-    """The options of a game folder, if they can be read, and their check."""
+    """Return the options of a game folder, if they can be read, and their check."""
     if folder is None:
         fix = "start the game once; a folder of your own is found while its game runs"
         return None, Check(CheckName.OPTIONS, "skip", "no launcher's game folder holds one", fix)
@@ -139,7 +139,7 @@ def options_row(folder: GameFolder | None) -> tuple[OptionsTxt | None, Check]:
 
 
 def option_rows(options: OptionsTxt | None, keys: KeysTable, window: tuple[int, int] | None) -> list[Check]:
-    """A check for each option; ``window`` is the game's width and height in pixels, None if it isn't seen."""
+    """Return a check for each option; ``window`` is the game's width and height in pixels, None if it isn't seen."""
     if options is None:
         return [Check(name, "skip", "no options.txt to read") for name in OPTION_CHECKS]
     return [
@@ -153,7 +153,7 @@ def option_rows(options: OptionsTxt | None, keys: KeysTable, window: tuple[int, 
 
 
 def gui_scale_row(value: str | None, window: tuple[int, int] | None) -> Check:
-    """Whether text can be read at the option's GUI scale (FACTS: The F3 debug screen)."""
+    """Check whether text can be read at the option's GUI scale (FACTS: The F3 debug screen)."""
     row, fix = CheckName.GUI_SCALE, f"Video Settings > GUI Scale: 2, or {FIX}"
     if value is None or not value.isdecimal():
         return Check(row, "skip", "the file doesn't say")
@@ -172,7 +172,7 @@ def gui_scale_row(value: str | None, window: tuple[int, int] | None) -> Check:
 
 
 def debug_scale_row(value: str | None, gui: str | None, window: tuple[int, int] | None) -> Check:
-    """The scale of the debug screen's text, from 26.3 on: any will do (FACTS: The F3 debug screen)."""
+    """Check the scale of the debug screen's text, from 26.3 on: any will do (FACTS: The F3 debug screen)."""
     row, fix = CheckName.DEBUG_GUI_SCALE, f"press F3+F6 > GUI Scale: Auto, or {FIX}"
     if value is None:
         return Check(row, "skip", "the file doesn't say: this version may not have it")
@@ -193,7 +193,7 @@ def _largest_scale(window: tuple[int, int]) -> int:
 
 
 def keys_row(options: OptionsTxt, keys: KeysTable) -> Check:
-    """Whether the game's keys are those that the profile presses."""
+    """Check whether the game's keys are those that the profile presses."""
     wanted = {action: getattr(keys, name) for action, name in ACTIONS.items()}
     wanted |= {f"hotbar.{slot}": key for slot, key in enumerate(keys.hotbar, 1)} | FIXED
     bound = {action: options.key(action) for action in wanted if f"key_key.{action}" in options.values}

@@ -15,7 +15,7 @@ _JARS_TRIED = 3
 
 
 def profile_row(name: str) -> tuple[Profile | None, Check]:
-    """The profile of that name, if it can be used, and its check."""
+    """Return the profile of that name, if it can be used, and its check."""
     path = profile_path(name)
     if not path.is_file():
         return None, Check(
@@ -33,7 +33,7 @@ def profile_row(name: str) -> tuple[Profile | None, Check]:
 
 
 def fit_row(name: str, profile: Profile | None, seen: Fingerprint | None) -> Check:
-    """Whether the profile still fits the window."""
+    """Check whether the profile still fits the window."""
     row, fix = CheckName.PROFILE_FITS, f"mc-nested calibrate all --profile {name}"
     if profile is None:
         return Check(row, "skip", "no profile to compare with")
@@ -49,7 +49,7 @@ def fit_row(name: str, profile: Profile | None, seen: Fingerprint | None) -> Che
 def font_row(
     profile: Profile | None, system: System, version: str | None, named: Path | None = None
 ) -> tuple[Font | None, Check]:
-    """A font to read this game with, and its check: the one ``named``, the profile's, or of a jar near the version."""
+    """Return a font to read this game with, ``named``, the profile's or a jar's near the version, and its check."""
     if named is not None:
         return _named_font(named.expanduser())
     problem: FontError | None = None

@@ -19,7 +19,7 @@ GUI_SCALE = 2
 """Replaces an Auto or too large GUI scale if the profile has none: it fits any window from 640 x 480 on."""
 
 _NEW_FILE_MODE = 0o644
-"""A temporary file is its maker's alone; a file of the game's can be read by all."""
+"""All users may read a file of the game's; a temporary file could be read by its maker alone."""
 
 
 def repair(examination: Examination, say: Callable[[str], None]) -> bool:
@@ -45,7 +45,7 @@ def repair(examination: Examination, say: Callable[[str], None]) -> bool:
 
 
 def _mend_options(examination: Examination) -> str | None:
-    """Write the safe values into options.txt; what was changed, None if nothing was."""
+    """Write the safe values into options.txt; return what was changed, None if nothing was."""
     options = examination.options
     if options is None:
         return None
@@ -59,7 +59,7 @@ def _mend_options(examination: Examination) -> str | None:
 
 
 def _mend_entries(examination: Examination) -> str | None:
-    """Switch the needed entries of the debug screen on; what was changed, None if nothing was."""
+    """Switch the needed entries of the debug screen on; return what was changed, None if nothing was."""
     entries = examination.entries
     if entries is None or not (entries.off or entries.problem):
         return None
@@ -69,7 +69,7 @@ def _mend_entries(examination: Examination) -> str | None:
 
 
 def _why_open(examination: Examination) -> str | None:
-    """Why the game may be open; None if nothing suggests it."""
+    """Return why the game may be open; None if nothing suggests it."""
     if examination.is_window_closed is False:
         return "the game is open: close it, and run this again"
     if examination.processes is None:
@@ -83,7 +83,7 @@ def _why_open(examination: Examination) -> str | None:
 
 
 def _gui_scale(examination: Examination) -> dict[str, str]:
-    """A GUI scale for a game whose own is too large, or changes with its window."""
+    """Return a GUI scale for a game whose own is too large, or changes with its window."""
     value = examination.options.values.get("guiScale") if examination.options else None
     if gui_scale_row(value, None).status not in ("warn", "fail"):
         return {}
@@ -93,7 +93,7 @@ def _gui_scale(examination: Examination) -> dict[str, str]:
 
 
 def _debug_scale(options: OptionsTxt) -> dict[str, str]:
-    """The game's own scale of the debug screen's text, where the file has none that is one."""
+    """Return the game's own scale of the debug screen's text, where the file has none that is one."""
     is_none = debug_scale_row(options.values.get("debugGuiScale"), None, None).status == "warn"
     return {"debugGuiScale": "0"} if is_none else {}
 

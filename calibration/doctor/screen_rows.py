@@ -39,7 +39,7 @@ WASHED_OUT = "switch HDR, a night light and colour filters off for this screen: 
 
 
 def picture_fault(frame: Frame, font: Font) -> str | None:
-    """What is wrong with a frame (height, width, 3) that can't be read, a colon, and what to do; None if unknown."""
+    """Return what is wrong with an unreadable frame (height, width, 3), a colon, and what to do; None if unknown."""
     if int(frame.max(initial=0)) <= BLACK:
         return NOT_PICTURED
     for level in LEVELS:
@@ -74,7 +74,7 @@ REDUCED_OFF = (
 
 
 def screen_rows(snapshot: WindowSnapshot, font: Font | None) -> list[Check]:
-    """The checks of what the window shows; ``font`` is the one that it was read with."""
+    """Return the checks of what the window shows; ``font`` is the one that it was read with."""
     contents = snapshot.contents
     if contents is None:
         reason = "no font to read it with" if snapshot.is_in_front else "another window is in front"
@@ -93,7 +93,7 @@ def screen_rows(snapshot: WindowSnapshot, font: Font | None) -> list[Check]:
 
 
 def reduced_by_options(options: OptionsTxt, known: Mapping[CheckName, Check]) -> Check | None:
-    """The check of an options.txt that reduces the debug screen, if no debug screen was seen; else None."""
+    """Return the check of an options.txt that reduces the debug screen, if no debug screen was seen; else None."""
     row = known.get(CheckName.REDUCED_DEBUG_INFO)
     if (row is None or row.status == "skip") and options.values.get("reducedDebugInfo") == "true":
         return Check(CheckName.REDUCED_DEBUG_INFO, "fail", "options.txt has it on", f"{REDUCED_OFF}; or {FIX}")
@@ -169,7 +169,7 @@ _RATIO_TOLERANCE = 0.01
 
 
 def window_rows(snapshot: WindowSnapshot, profile: Profile | None) -> list[Check]:
-    """The checks of an open window."""
+    """Return the checks of an open window."""
     return [
         window_row(snapshot.window.title),
         front_row(snapshot),
@@ -179,13 +179,13 @@ def window_rows(snapshot: WindowSnapshot, profile: Profile | None) -> list[Check
 
 
 def window_row(title: str) -> Check:
-    """The window's title, and whether its version is known."""
+    """Check the window's title, and whether its version is known."""
     line = later_version_line(version_in(title) or "")
     return check_from_message(CheckName.WINDOW, "warn", line) if line else Check(CheckName.WINDOW, "pass", repr(title))
 
 
 def front_row(snapshot: WindowSnapshot) -> Check:
-    """Whether the game is in front."""
+    """Check whether the game is in front."""
     if snapshot.is_in_front:
         return Check(CheckName.IN_FRONT, "pass", "keys would reach the game")
     return Check(
@@ -197,7 +197,7 @@ def front_row(snapshot: WindowSnapshot) -> Check:
 
 
 def scaling_row(snapshot: WindowSnapshot) -> Check:
-    """Pixels to a point, measured on the picture: text that is drawn with a fractional number of them can't be read."""
+    """Check the pixels to a point, as the picture shows them: text at a fractional number of them can't be read."""
     row = CheckName.DISPLAY_SCALING
     if snapshot.points is None:
         return Check(row, "skip", "this window's points aren't known")
@@ -218,7 +218,7 @@ def scaling_row(snapshot: WindowSnapshot) -> Check:
 
 
 def size_row(snapshot: WindowSnapshot, profile: Profile | None) -> Check:
-    """The window's size, and the GUI scale at which its text is seen."""
+    """Check the window's size, and the GUI scale at which its text is seen."""
     row, size, scales = CheckName.SIZE_AND_SCALE, f"{_size(snapshot.window.window)} pixels", snapshot.window.scales
     if any(seen < least for seen, least in zip(snapshot.window.window, LEAST, strict=True)):
         return Check(row, "fail", size, f"make the window larger than {_size(LEAST)}")

@@ -75,7 +75,7 @@ def take_snapshot(devices: Devices, font: Font | None, profile: Profile = UNCALI
 
 
 def _contents_of(frame: Frame, font: Font, profile: Profile, display: Display) -> ScreenContents:
-    """What a frame of the game shows. A debug screen whose layout differs from the profile's is found, too."""
+    """Return what a frame of the game shows. A debug screen whose layout differs from the profile's is found, too."""
     overlay = overlay_of(profile)
     found = find_debug_screen(frame, font, overlay) or (find_debug_screen(frame, font) if overlay else None)
     # A modpack's title says no version: the profile's does then, or a menu under the debug text would be the world.
@@ -103,7 +103,7 @@ def _contents_of(frame: Frame, font: Font, profile: Profile, display: Display) -
 def wait_until_readable(
     devices: Devices, font: Font | None, profile: Profile, say: Callable[[str], None]
 ) -> WindowSnapshot:
-    """The first snapshot with the game in front and the debug screen readable; at the deadline, the last snapshot."""
+    """Return the first snapshot with the game in front and the debug screen readable; at the deadline, the last one."""
     clock = devices.clock
     deadline, has_arrived = Deadline(clock, FRONT_S), False
     snapshot = take_snapshot(devices, font, profile)
@@ -128,7 +128,7 @@ def _is_readable(snapshot: WindowSnapshot) -> bool:
 
 
 def _menu_in(frame: Frame, font: Font) -> tuple[ScreenName, int | None]:
-    """The menu in a frame and its GUI scale, or "unknown"."""
+    """Return the menu in a frame and its GUI scale, or "unknown"."""
     for scale in SCALES:
         if (name := menu_name(MenuLabels(frame, font, scale))) is not None:
             return name, scale

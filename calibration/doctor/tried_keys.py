@@ -26,14 +26,14 @@ STEP_TICKS = 3
 """How long a step's keys are held; at least one of a slow game's frames sees them down."""
 
 LEAST_STEP = 0.01
-"""Blocks that count as a step: a sneaking tick covers six times as much."""
+"""The shortest move that counts as a step, in blocks: a sneaking tick covers six times as much."""
 
 STILL_S = 0.2
-"""Between two looks that must show the same position."""
+"""Seconds between two looks that must show the same position."""
 
 SLOT_SHOWN_S = 0.4
-"""From the press of a slot's key until its frame is drawn and pictured, in a game of 10 frames a second that doesn't
-lag. In one that does it is as long as a step took to be seen."""
+"""Seconds from the press of a slot's key until its frame is drawn and pictured, in a game of 10 frames a second without
+lag. In a game that lags, it takes as long as a step took to be seen."""
 
 SLOT, BAR = 20, (182, 22)
 """GUI pixels from slot to slot, and the hotbar's width and height."""
@@ -51,7 +51,7 @@ class TriedWindow:
     snapshot: Callable[[], WindowSnapshot]
 
     def world(self) -> WindowSnapshot:
-        """A snapshot of the world, for which a press is permitted now; WrongScreenError where a menu is open."""
+        """Return a snapshot of the world, for which a press is permitted now; WrongScreenError where a menu is open."""
         current = self.snapshot()
         self.controller.check_front()
         if is_menu(current):
@@ -60,7 +60,7 @@ class TriedWindow:
         return current
 
     def first(self, is_so: Callable[[WindowSnapshot], bool]) -> WindowSnapshot | None:
-        """The first snapshot for which ``is_so`` holds, or None. NotInFrontError if the window loses the front."""
+        """Return the first snapshot for which ``is_so`` holds, or None. NotInFrontError if another is in front."""
         deadline = Deadline(self.devices.clock, EFFECT_S)
         while True:
             current = self.snapshot()
@@ -73,7 +73,7 @@ class TriedWindow:
 
 
 def is_menu(snapshot: WindowSnapshot) -> bool:
-    """Whether a menu is seen."""
+    """Return whether a menu is seen."""
     return snapshot.contents is not None and snapshot.contents.screen not in ("world", "unknown")
 
 
@@ -91,7 +91,7 @@ class Step:
 
 
 def moving_key(window: TriedWindow, keys: KeysTable) -> Step | None:
-    """The step of the first movement key that was seen to move the player; None where none does."""
+    """Return the step of the first movement key that was seen to move the player; None where none does."""
     for there, back in ((keys.forward, keys.back), (keys.back, keys.forward), (keys.left, keys.right)):
         start, pressed_at = window.world(), window.devices.clock.now()
         window.controller.hold(there, STEP_TICKS, keys.sneak)
@@ -107,7 +107,7 @@ def moving_key(window: TriedWindow, keys: KeysTable) -> Step | None:
 
 
 def is_slot_seen_to_change(window: TriedWindow, keys: KeysTable, shown_s: float = SLOT_SHOWN_S) -> bool:
-    """Whether the keys of the first two slots move the frame from one to the other; the slot before is chosen again.
+    """Return whether the first two slots' keys move the frame from one to the other. The slot before is chosen again.
 
     ``shown_s`` is how long a press may take to be seen, in seconds.
     """
@@ -128,7 +128,7 @@ def is_slot_seen_to_change(window: TriedWindow, keys: KeysTable, shown_s: float 
 
 
 def _slot_before(changed_dots: list[float]) -> int:
-    """Which slot's frame went to the first slot; the first, if none did."""
+    """Return which slot's frame went to the first slot; the first, if none did."""
     most = max(range(1, 9), key=changed_dots.__getitem__)
     return most if changed_dots[most] >= LEAST_DOTS else 0
 
@@ -138,7 +138,7 @@ def _has_moved(start: WindowSnapshot, seen: WindowSnapshot) -> bool:
 
 
 def _distance(before: XYZ | None, after: XYZ | None) -> float | None:
-    """Blocks over ground from one position to another; None where one of them wasn't read."""
+    """Return the blocks over ground from one position to another; None if one of them wasn't read."""
     if before is None or after is None:
         return None
     return math.hypot(after[0] - before[0], after[2] - before[2])
@@ -153,7 +153,7 @@ def _has_moved_or_stopped(start: WindowSnapshot, seen: WindowSnapshot) -> bool:
 
 
 def _stand_still(window: TriedWindow) -> XYZ | None:
-    """Wait until the player stands, or moves by no key of ours for EFFECT_S; where it is then."""
+    """Wait until the player stands, or moves by no key of ours for EFFECT_S; return where it is then."""
     deadline, before = Deadline(window.devices.clock, EFFECT_S), _position(window.snapshot())
     window.controller.wait(STILL_S)
     while not deadline.has_passed:
@@ -166,7 +166,7 @@ def _stand_still(window: TriedWindow) -> XYZ | None:
 
 
 def _bar(devices: Devices, scale: int) -> Frame:
-    """The hotbar's place in the window, framebuffer pixels."""
+    """Return the hotbar's place in the window, framebuffer pixels."""
     width, height = devices.display.size()
     gui_width, gui_height = -(-width // scale), -(-height // scale)
     left, top = (gui_width // 2 - BAR[0] // 2) * scale, (gui_height - BAR[1]) * scale
@@ -175,7 +175,7 @@ def _bar(devices: Devices, scale: int) -> Frame:
 
 
 def _changed_dots(before: Frame, after: Frame, scale: int) -> list[float]:
-    """How many GUI pixels of each of the nine slots have changed, the outermost left out, which two slots share."""
+    """Return how many GUI pixels of each of the nine slots changed, without the outermost, which two slots share."""
     change = np.abs(before.astype(np.int16) - after).max(axis=2) > LEAST_CHANGE
     parts = (change[:, (SLOT * slot + 3) * scale : (SLOT * (slot + 1) - 1) * scale] for slot in range(9))
     return [int(part.sum()) / scale**2 for part in parts]

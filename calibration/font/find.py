@@ -33,11 +33,11 @@ from mc_nested.live.vision.layout import INK_SPREAD, VANILLA, Overlay
 from mc_nested.live.vision.overlay import SCALES, find_debug_screen, find_overlay
 
 SHOWN = 6
-"""Fonts that an error names."""
+"""How many fonts an error names at most."""
 
 _LARGER_SCALES = range(max(SCALES) + 1, 13)
 _TEXT_SHARE = 0.002
-"""Least share of a picture's upper left that has the text's colour where there is a debug screen."""
+"""With a debug screen, at least this share of a picture's upper left has the text's colour."""
 
 
 @dataclass(frozen=True)
@@ -51,7 +51,7 @@ class Candidate:
 def nothing_fits(
     frames: Sequence[Frame], candidates: Sequence[Candidate], options: Mapping[str, str]
 ) -> FontError | LiveError:
-    """The error that says why none of the candidates reads any of these frames (height, width, 3).
+    """Return the error that says why none of the candidates reads any of these frames (height, width, 3).
 
     ``options`` are those of the game's options.txt.
     """
@@ -81,7 +81,7 @@ def nothing_fits(
 
 
 def fits_in_part(problem: str, candidates: Sequence[Candidate]) -> LiveError:
-    """The error where a debug screen is seen, but not read because of ``problem``: the font may be the cause."""
+    """Return the error where a debug screen is seen, but not read because of ``problem``: the font may be the cause."""
     return UnreadableError(f"{problem}; or is it the font of another version? Tried: {_names(candidates)}")
 
 
@@ -91,7 +91,7 @@ def _names(candidates: Sequence[Candidate]) -> str:
 
 
 def _has_text(frame: Frame) -> bool:
-    """Whether so much of the upper left has the text's colour that there must be a debug screen."""
+    """Return whether so much of the upper left has the text's colour that there must be a debug screen."""
     part = frame[: frame.shape[0] // 2, : frame.shape[1] // 3]
     colour = np.array(VANILLA.text_colour, np.int16)
     inked = (np.abs(part.astype(np.int16) - colour) <= INK_SPREAD).all(2)
@@ -105,7 +105,7 @@ PATIENCE_S = 15.0
 
 
 def sources_here(version: str | None) -> FontSources:
-    """What this computer's launchers have for a game of that version."""
+    """Return what this computer's launchers have for a game of that version."""
     return font_sources(System.here(), version)
 
 
@@ -143,7 +143,7 @@ def sources_for(
     font: Path | None = None,
     sources: Callable[[str | None], FontSources] = sources_here,
 ) -> FontSources:
-    """What there is to try: ``font`` alone where it is given, else what ``sources`` has for the version in the title.
+    """Return the sources to try: only ``font``, if given, else what ``sources`` has for the title's version.
 
     The profile's own font comes last, which may be of another version.
     """
@@ -155,7 +155,7 @@ def sources_for(
 
 
 def find_font(context: CalibrationContext, profile: Profile, sources: FontSources) -> StepResult:
-    """The profile with the first font of the sources that reads the debug screen, and that screen read back.
+    """Return the profile with the first font of the sources that reads the debug screen, and that screen read back.
 
     A menu that lies over the world is left, and the debug screen switched on.
 
@@ -187,7 +187,7 @@ def find_font(context: CalibrationContext, profile: Profile, sources: FontSource
 def _on_screen(
     context: CalibrationContext, profile: Profile, candidates: Sequence[Candidate], sources: FontSources
 ) -> Candidate:
-    """The first candidate that reads what is on the screen, once that is a world with its debug screen."""
+    """Return the first candidate that reads what is on the screen, once that is a world with its debug screen."""
     display, clock, controller, debug = (
         context.devices.display,
         context.devices.clock,
@@ -224,7 +224,7 @@ def _on_screen(
 
 
 def _way_from_menu(context: CalibrationContext, profile: Profile, candidates: Sequence[Candidate]) -> Recovery | None:
-    """The way out of the menu that one of the fonts reads; None where none does."""
+    """Return the way out of the menu that one of the fonts reads; None where none does."""
     connection = context.connection
     for each in candidates:
         display = connection.devices.display
@@ -236,7 +236,7 @@ def _way_from_menu(context: CalibrationContext, profile: Profile, candidates: Se
 
 
 def _loaded(paths: Sequence[Path]) -> tuple[list[Candidate], list[str]]:
-    """The different fonts of these files, and what is wrong with the files that hold none."""
+    """Return the different fonts of these files, and what is wrong with the files that hold none."""
     candidates: list[Candidate] = []
     unusable = []
     for path in paths:
@@ -267,7 +267,7 @@ def _findings(
 
 
 def _compared_with_clipboard(context: CalibrationContext, profile: Profile) -> tuple[str, ...]:
-    """What F3+C says about the reading, where the version has it."""
+    """Return what F3+C says about the reading, where the version has it."""
     try:
         return cross_check(context, profile).lines
     except (ClipboardError, NotConfirmedError) as error:

@@ -41,7 +41,7 @@ class ReadLine:
 
 
 def read_back(frame: Frame, font: Font) -> list[ReadLine]:
-    """The lines of a frame's debug screen, the left column's first; none where there is no debug screen."""
+    """Return the lines of a frame's debug screen, the left column's first; none where there is no debug screen."""
     found = find_debug_screen(frame, font)
     if found is None or found.label != POSITION:
         return []
@@ -52,7 +52,7 @@ def read_back(frame: Frame, font: Font) -> list[ReadLine]:
 
 
 def phase_of(frame: Frame, font: Font) -> tuple[int, int] | None:
-    """Pixels, to the right and down, by which the dots of the text lie off the window's own; None without a text.
+    """Return how many pixels, right and down, the text's dots lie off the window's own; None without a text.
 
     The game draws its dots from the window's corner on: anything but (0, 0) is a picture that is shifted.
     """
@@ -75,7 +75,7 @@ def phase_of(frame: Frame, font: Font) -> tuple[int, int] | None:
 
 
 def side_by_side(lines: Sequence[ReadLine]) -> Frame:
-    """The lines below each other, each picture on the left and its text on the right: (height, width, 3)."""
+    """Return the lines below each other, each picture on the left and its text on the right: (height, width, 3)."""
     pictures = [_enlarged(line.picture) for line in lines]
     widest = max((picture.shape[1] for picture in pictures), default=0)
     longest = max((_width_of(line.text.replace(UNKNOWN, "?")) for line in lines), default=0)
@@ -103,7 +103,7 @@ def _left_column(found: FoundScreen, font: Font) -> list[Line]:
 
 
 def _is_mostly_known(line: Line) -> bool:
-    """Whether a line of the right column is text: the world beside an empty line may look like a glyph or two."""
+    """Return whether a right-column line is text: the world beside an empty line may look like a glyph or two."""
     known = line.text.replace(UNKNOWN, "").strip()
     return len(known) > 2 and 2 * len(known) > len(line.text)
 

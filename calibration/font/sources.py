@@ -30,7 +30,7 @@ class FontSources:
 
 
 def font_sources(system: System, version: str | None) -> FontSources:
-    """Where a game of that version may have its font from; None is an unknown version."""
+    """Return where a game of that version may have its font from; None is an unknown version."""
     folders = game_folders(system, version)
     options = _options_of(folders[0]) if folders else {}
     packs = _packs(folders[0], options) if folders else ()
@@ -38,7 +38,7 @@ def font_sources(system: System, version: str | None) -> FontSources:
 
 
 def _packs(folder: GameFolder, options: Mapping[str, str]) -> Sequence[Path]:
-    """The enabled resource packs that exist, the uppermost first."""
+    """Return the enabled resource packs that exist, the uppermost first."""
     try:
         named = json.loads(options.get("resourcePacks", "[]"))
     except ValueError:
@@ -56,7 +56,7 @@ def _options_of(folder: GameFolder) -> Mapping[str, str]:
 
 
 def font_of_recording(path: Path, system: System) -> Path:
-    """The font that a recording's profile names, or the client jar on this computer that is nearest to its version.
+    """Return the font that a recording's profile names, or the client jar here that is nearest to its version.
 
     Raises:
         RecordingError: the recording can't be used, or says nothing of its profile.

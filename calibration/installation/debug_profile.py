@@ -31,7 +31,7 @@ _SHOWN, _SHOWN_TO_1_21_10 = "inOverlay", "inF3"
 _NAMESPACE = "minecraft:"
 
 _FIRST_DATA, _MOST_DATA = 4554, 20_000
-"""The data version of 1.21.9; and more than any to come, at a few hundred a year."""
+"""The data version of 1.21.9, and one that no version reaches soon: it grows by a few hundred a year."""
 
 _VERSION_JSON, _MOST_BYTES = "version.json", 1 << 16
 
@@ -68,7 +68,7 @@ class DebugProfile:
         return [each for each in self.needed if self.statuses.get(_NAMESPACE + each) not in on]
 
     def mended(self, data_version: int | None) -> bytes:
-        """The file's bytes with what is needed on, and every other entry as it is.
+        """Return the file's bytes with what is needed on, and every other entry as it is.
 
         ``data_version`` is written where the file has none: the game's own, None where that isn't known.
         """
@@ -80,7 +80,7 @@ class DebugProfile:
 
 
 def load_debug_profile(folder: Path, version: str) -> DebugProfile:
-    """What the file in a game's folder says, for a version that has it; ProfileError if it can't be read at all."""
+    """Return what the file in a game's folder says, for a version that has it; ProfileError if it can't be read."""
     path = folder / FILE
     try:
         data = path.read_bytes() if path.exists() else None
@@ -100,7 +100,7 @@ def load_debug_profile(folder: Path, version: str) -> DebugProfile:
 
 
 def version_of_data(data_version: int) -> str:
-    """A version with the same ids and words as the one whose options.txt says this data version."""
+    """Return a version with the same ids and words as the one whose options.txt says this data version."""
     if data_version > DATA_OF_1_21_11:
         return "26.1"
     if data_version == DATA_OF_1_21_11:
@@ -109,7 +109,7 @@ def version_of_data(data_version: int) -> str:
 
 
 def data_version_in(jar: Path) -> int | None:
-    """The data version that a client's jar says to be of; None if it can't be read, or says no likely one."""
+    """Return the data version that a client's jar says to be of; None if it can't be read, or says no likely one."""
     try:
         with zipfile.ZipFile(jar) as file, file.open(_VERSION_JSON) as entry:
             known = json.loads(entry.read(_MOST_BYTES))
@@ -124,7 +124,7 @@ def _data_version(value: object) -> int | None:
 
 
 def _statuses(known: Mapping[str, Any], version: str, data_version: int | None) -> dict[str, str]:
-    """Each entry's word, as the game would read them; ValueError where it couldn't."""
+    """Return each entry's word, as the game would read them; ValueError where it couldn't."""
     if "profile" in known:
         return _of_profile(known["profile"], version)
     custom = known.get("custom", {})
@@ -145,7 +145,7 @@ def _statuses(known: Mapping[str, Any], version: str, data_version: int | None) 
 
 
 def _of_profile(name: object, version: str) -> dict[str, str]:
-    """What one of the game's own profiles means; ValueError if it has none of that name."""
+    """Return what one of the game's own profiles means; ValueError if it has none of that name."""
     shown = _shown(version)
     if name == "default":
         return {_NAMESPACE + each: shown for each in DEFAULT_ENTRIES}

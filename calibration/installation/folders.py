@@ -20,7 +20,7 @@ Platform = Literal["linux", "macos", "windows"]
 
 OPTIONS = "options.txt"
 LOG = Path("logs", "latest.log")
-"""The game writes to it while it runs."""
+"""A file that the game writes to while it runs."""
 
 Layout = Literal["official", "instances", "profiles", "curseforge"]
 
@@ -38,12 +38,12 @@ class System:
 
     @classmethod
     def here(cls) -> "System":
-        """This computer."""
+        """Return this computer."""
         platforms: dict[str, Platform] = {"win32": "windows", "darwin": "macos"}
         return cls(platforms.get(sys.platform, "linux"), Path.home(), os.environ)
 
     def folder(self, base: str) -> Path:
-        """The folder for ``~``, or for ``data``, where programs keep their data."""
+        """Return the folder for ``~``, or for ``data``, where programs keep their data."""
         if base == "~":
             return self.home
         if base == "data" and self.platform == "macos":
@@ -153,12 +153,12 @@ class GameFolder:
         return self.path / OPTIONS
 
     def last_used(self) -> float:
-        """When the game last wrote into it, in seconds since 1970; 0 if unknown."""
+        """Return when the game last wrote into it, in seconds since 1970; 0 if unknown."""
         return max(file.st_mtime if (file := _stat(each)) else 0.0 for each in (self.options, self.path / LOG))
 
 
 def game_folders(system: System, version: str | None = None) -> list[GameFolder]:
-    """The game folders of all launchers that hold an options.txt: those of the version first, then the last used ones.
+    """Return the launchers' game folders that hold an options.txt: those of the version first, then the last used ones.
 
     Unreadable folders are left out. Folders of unknown version come between those of the right and of a wrong one.
     """
@@ -178,7 +178,7 @@ def game_folders(system: System, version: str | None = None) -> list[GameFolder]
 
 
 def client_jars(system: System, version: str | None = None) -> list[Path]:
-    """The client jars of all launchers, the newest version first; with ``version`` the best ones for it first.
+    """Return the client jars of all launchers, the newest version first; with ``version`` the best ones for it first.
 
     Best is the plain game's jar of exactly that version, then a modified one's, then the nearest older versions, then
     the newer ones: the font seldom changes (FACTS: The bitmap font). Empty files, which some mod loaders leave, are
@@ -205,7 +205,7 @@ def client_jars(system: System, version: str | None = None) -> list[Path]:
 
 
 def jar_version(jar: Path) -> str | None:
-    """The Minecraft version of a jar of ``client_jars``, by its folder's name."""
+    """Return the Minecraft version of a jar of ``client_jars``, by its folder's name."""
     found = _VERSIONED.fullmatch(jar.parent.name)
     return found[1] if found else None
 
@@ -217,7 +217,7 @@ def _roots(system: System) -> Iterator[tuple[Launcher, Path]]:
 
 
 def _matches(root: Path, pattern: str) -> list[Path]:
-    """What matches the pattern below the root, sorted by name; nothing if that can't be read."""
+    """Return what matches the pattern below the root, sorted by name; nothing if that can't be read."""
     try:
         return [root] if pattern == "." else sorted(root.glob(pattern))
     except OSError:
@@ -225,7 +225,7 @@ def _matches(root: Path, pattern: str) -> list[Path]:
 
 
 def _version_of(game: Path, layout: Layout) -> str | None:
-    """The version that a launcher records in or beside a game folder."""
+    """Return the version that a launcher records in or beside a game folder."""
     if layout == "instances":
         pack = _json(game.parent / "mmc-pack.json")
         parts = pack.get("components")
@@ -250,7 +250,7 @@ def _text(value: object) -> str | None:
 
 
 def _stat(file: Path) -> os.stat_result | None:
-    """The status of a readable regular file, else None."""
+    """Return the status of a readable regular file, else None."""
     try:
         found = file.stat()
     except OSError:

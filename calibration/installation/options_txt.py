@@ -84,7 +84,7 @@ class OptionsTxt:
         return {name: value for name, colon, value in pairs if colon}
 
     def key(self, action: str) -> str | None:
-        """What the action is bound to: a profile's key name, "left button" or the like, or "" for nothing.
+        """Return what the action is bound to: a profile's key name, "left button" or the like, or "" for nothing.
 
         None if the file doesn't say, or names a key that profiles have no name for.
         """
@@ -92,17 +92,17 @@ class OptionsTxt:
         return None if value is None else key_name(value)
 
     def with_values(self, values: Mapping[str, str]) -> "OptionsTxt":
-        """The options with these values. A missing option stays missing: this version doesn't know it."""
+        """Return the options with these values. A missing option stays missing: this version doesn't know it."""
         return OptionsTxt(self.path, tuple(_with_value(line, values) for line in self.lines))
 
     def changes(self, values: Mapping[str, str]) -> dict[str, tuple[str, str]]:
-        """The options that ``with_values`` would change, with their values before and after."""
+        """Return the options that ``with_values`` would change, with their values before and after."""
         before = self.values
         return {name: (before[name], value) for name, value in values.items() if before.get(name, value) != value}
 
 
 def parse_options(data: bytes, path: Path) -> OptionsTxt:
-    """The options in the file's bytes; ProfileError if most of its lines are something else."""
+    """Return the options in the file's bytes; ProfileError if most of its lines are something else."""
     lines = data.splitlines(keepends=True)
     filled = [line for line in lines if line.strip()]
     if 2 * sum(bool(_OPTION.match(line)) for line in filled) <= len(filled):
@@ -114,7 +114,7 @@ def parse_options(data: bytes, path: Path) -> OptionsTxt:
 
 
 def load_options(path: Path) -> OptionsTxt:
-    """The options in a file; ProfileError if it can't be read, or holds none."""
+    """Return the options in a file; ProfileError if it can't be read, or holds none."""
     try:
         data = path.read_bytes()
     except OSError as error:
@@ -123,7 +123,7 @@ def load_options(path: Path) -> OptionsTxt:
 
 
 def key_name(value: str) -> str | None:
-    """The profile's name of a key in options.txt; "" for no key, None for a key that profiles have no name for.
+    """Return the profile's name of a key in options.txt; "" for no key, None for a key that profiles have no name for.
 
     With a modifier that Forge writes behind it, such as ``:CONTROL``, it is a different key; ``:NONE`` is no modifier.
     """
@@ -144,7 +144,7 @@ def key_name(value: str) -> str | None:
 
 
 def is_same_key(one: str, other: str) -> bool:
-    """Whether two names mean the same key, as ``esc`` and ``escape``, ``w`` and ``W`` do."""
+    """Return whether two names mean the same key, as ``esc`` and ``escape``, ``w`` and ``W`` do."""
     return canonical(one) == canonical(other)
 
 

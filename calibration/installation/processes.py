@@ -40,7 +40,7 @@ class Process:
 
 
 def running_processes(platform: Platform, processes: Path = _PROCESSES) -> list[Process] | None:
-    """The programs that are running, as far as this user may see them; None if the system can't be asked."""
+    """Return the programs that are running, as far as this user may see them; None if the system can't be asked."""
     if platform == "linux":
         return _linux_processes(processes)
     query = (
@@ -53,9 +53,10 @@ def running_processes(platform: Platform, processes: Path = _PROCESSES) -> list[
 
 
 def may_have_open(process: Process, folder: Path) -> bool:
-    """Whether a program may be a game that uses this folder: its own folder is this one, or unknown.
+    """Return whether a program may be a game that uses this folder: its own folder is this one, or unknown.
 
-    The less harmful mistake: a game in another folder may have to be closed too.
+    An unknown folder counts as this one. That is the less harmful mistake: a game in another folder may have to be
+    closed, too.
     """
     if not process.is_game:
         return False
@@ -63,17 +64,17 @@ def may_have_open(process: Process, folder: Path) -> bool:
 
 
 def folders_played(processes: Iterable[Process]) -> list[Path]:
-    """The known folders of running games."""
+    """Return the known folders of running games."""
     return [folder for each in processes if each.is_game and (folder := each.game_folder)]
 
 
 def is_same_folder(one: Path, other: Path) -> bool:
-    """Whether two paths lead to the same folder."""
+    """Return whether two paths lead to the same folder."""
     return os.path.normcase(one.resolve()) == os.path.normcase(other.resolve())
 
 
 def _linux_processes(processes: Path) -> list[Process] | None:
-    """Each process on Linux: ``cmdline``, words that end in a zero byte, and ``cwd``, a link."""
+    """Return each process on Linux: ``cmdline``, words that end in a zero byte, and ``cwd``, a link."""
     try:
         entries = [each for each in processes.iterdir() if each.name.isdecimal()]
     except OSError:
@@ -96,7 +97,7 @@ def _link(path: Path) -> Path | None:
 
 
 def _output_of(query: Sequence[str]) -> str | None:
-    """What a system program prints; None if it is missing, fails or takes too long."""
+    """Return what a system program prints; None if it is missing, fails or takes too long."""
     program = shutil.which(query[0])
     if program is None:
         return None

@@ -87,7 +87,7 @@ class Findings:
 
 
 def findings_folder(profile: Path) -> Path:
-    """The folder beside a profile's file."""
+    """Return the folder beside a profile's file in which findings are kept."""
     return profile.with_name(f"{profile.stem}-calibration")
 
 
@@ -133,7 +133,7 @@ def save_findings_or_warn(
     checks: Sequence[Check] = (),
     today: str | None = None,
 ) -> None:
-    """As ``save_findings``, after the profile was written: a failure is only a warning."""
+    """Do as ``save_findings``, after the profile was written, but only warn if it fails."""
     try:
         save_findings(profile, found, checks, today)
     except ProfileError as error:
@@ -141,7 +141,7 @@ def save_findings_or_warn(
 
 
 def load_findings(profile: Path) -> Findings:
-    """What is kept beside a profile, without pictures that are gone; empty where no calibration left anything.
+    """Return what is kept beside a profile, without pictures that are gone; empty where no calibration left anything.
 
     ProfileError if it can't be read.
     """

@@ -35,13 +35,13 @@ TITLES: Mapping[str, str] = {
 """The steps' titles, in the order of the guided run; any other step has its name as title."""
 
 SEEN = "the place where you stood, the game's and the computer's lines on the debug screen, the names of your worlds"
-"""What the pictures of a whole calibration show of the person's own."""
+"""The personal things that the pictures of a whole calibration show."""
 
 STATUSES: tuple[Status, ...] = ("fail", "warn", "pass", "skip")
-"""Of checks, the worst first."""
+"""The statuses of checks, the worst first."""
 
 SMALL_BYTES = 400_000
-"""A picture that is larger as PNG goes in as JPEG: twenty of them must still fit into a bug report."""
+"""A picture that is larger than this as PNG goes in as JPEG: twenty must still fit into a bug report."""
 
 JPEG_QUALITY = 88
 
@@ -59,7 +59,7 @@ class CalibrationReport:
 
 
 def contents(report: CalibrationReport) -> list[str]:
-    """What is in the file and what isn't, one line each: shown at its top, and to the person who makes it."""
+    """Return what is in the file and what isn't, one line each: shown at its top, and to the person who makes it."""
     findings = report.findings
     steps = ", ".join(TITLES.get(step.step, step.step) for step in _in_order(findings.steps))
     lines = sum(len(step.lines) for step in findings.steps)
@@ -76,7 +76,7 @@ def contents(report: CalibrationReport) -> list[str]:
 
 
 def report_html(report: CalibrationReport, names: Names) -> str:
-    """The report as one HTML document, without scripts and without anything to fetch."""
+    """Return the report as one HTML document, without scripts and without anything to fetch."""
     environment = Environment(
         autoescape=True,
         undefined=StrictUndefined,
@@ -111,7 +111,7 @@ def _page(report: CalibrationReport) -> dict[str, Any]:
 
 
 def _tiles(report: CalibrationReport) -> list[tuple[str, str]]:
-    """The fingerprint: the game and the window that this profile is for."""
+    """Return the fingerprint: the game and the window that this profile is for."""
     calibrated, version = report.profile.calibrated, report.profile.game.version
     if calibrated is None:
         return [("Minecraft", version), ("Calibrated", "not as a whole")]
@@ -148,7 +148,7 @@ def _figure(picture: ReportPicture) -> dict[str, Any]:
 
 
 def data_uri(frame: Frame) -> str:
-    """A picture as a URI that holds it whole: PNG, or JPEG where that would be large."""
+    """Return a picture as a URI that holds it whole: PNG, or JPEG where that would be large."""
     png = cv2.imencode(".png", frame)[1].tobytes()
     kind, data = "png", png
     if len(png) > SMALL_BYTES:

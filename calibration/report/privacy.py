@@ -19,7 +19,7 @@ from pathlib import Path
 HOME, USER = "~", "<user>"
 
 GAME = "minecraft"
-"""An account of this name says nothing of anybody, and stands in every title, path and block."""
+"""An account of this name identifies nobody, and the word is in every title, path and block."""
 
 _VARIABLES = ("USER", "USERNAME", "LOGNAME", "SUDO_USER")
 """Environment variables that name the user."""
@@ -58,7 +58,7 @@ class Names:
         return re.compile(rf"{USER}|(?<!{_LETTER})(?:{alone})(?!{_LETTER})", re.IGNORECASE)
 
     def removed_from(self, text: str) -> str:
-        """The text without them. Removing them twice is the same as removing them once."""
+        """Return the text without them. Removing them twice is the same as removing them once."""
         if self._home is not None:
             text = self._home.sub(HOME, text)
         text = _ELSEWHERE.sub(lambda found: (found["windows"] or found["unix"]) + USER, text)
@@ -66,7 +66,7 @@ class Names:
 
 
 def names_here(environment: Mapping[str, str] = os.environ) -> Names:
-    """The names of the person who runs this."""
+    """Return the names of the person who runs this."""
     home = Path.home()
     users = [environment[variable] for variable in _VARIABLES if environment.get(variable)]
     # A container's account may have no name.

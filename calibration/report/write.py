@@ -14,7 +14,7 @@ from mc_nested.toml_file import read_toml_text
 
 
 def report_path(profile: Path) -> Path:
-    """Where a profile's report is written by default."""
+    """Return where a profile's report is written by default."""
     return profile.with_name(f"{profile.stem}-calibration.html")
 
 

@@ -22,7 +22,7 @@ COLOURS: dict[Gait, str] = {"walk": "#1f5fa8", "sneak": "#b8561b"}
 
 
 def picture_of_walk(walk_model: WalkModel) -> ReportPicture:
-    """The curve, left, and the residuals, right: (420, 1000, 3)."""
+    """Draw the curve, left, and the residuals, right: (420, 1000, 3)."""
     # Imported only here: it is slow, and it prints warnings where it finds no folder for its settings.
     from matplotlib.figure import Figure
 
@@ -51,7 +51,7 @@ def picture_of_walk(walk_model: WalkModel) -> ReportPicture:
 
 
 def picture_of_empirical_walk(walk: EmpiricalWalk) -> ReportPicture:
-    """The holds, and the line through them: (420, 1000, 3)."""
+    """Draw the holds, and the line through them: (420, 1000, 3)."""
     # Imported only here, as above.
     from matplotlib.figure import Figure
 

@@ -16,10 +16,10 @@ from mc_nested.errors import NotConfirmedError
 from mc_nested.live.model.kinematics import TICK_S, Gait, hold_path, hold_paths
 
 OUTLIER_BLOCKS = 0.01
-"""Blocks off its path at which a hold is no hold of whole ticks: lag, a lost key or a push came in between."""
+"""A hold so many blocks off its path isn't one of whole ticks: lag, a lost key or a push came in between."""
 
 MORE_OR_LESS = 2
-"""Ticks that a hold may be felt longer or shorter than it was."""
+"""By how many ticks a hold may be felt longer or shorter than it was."""
 
 FEWEST = 8
 """Holds of a gait that a fit needs, at least three times as many as it has unknowns."""
@@ -61,15 +61,15 @@ class GaitModel:
         return self.push / (1 - self.inertia)
 
     def path(self, ticks: int) -> tuple[float, ...]:
-        """The position after each tick of a hold from rest, in blocks from its beginning, until standstill."""
+        """Return the position after each tick of a hold from rest, in blocks from its beginning, until standstill."""
         return hold_path(ticks, self.push, self.inertia)
 
     def paths(self, most: int) -> list[tuple[float, ...]]:
-        """The paths of the holds of 0 to ``most`` ticks."""
+        """Return the paths of the holds of 0 to ``most`` ticks."""
         return hold_paths(most, self.push, self.inertia)
 
     def covered(self, ticks: int) -> float:
-        """Blocks that a hold of so many ticks covers until standstill."""
+        """Return the blocks that a hold of so many ticks covers until standstill."""
         return self.path(ticks)[-1]
 
 
@@ -93,7 +93,7 @@ class MatchedHold:
 
 
 def match_hold(trace: HoldTrace, model: GaitModel) -> MatchedHold:
-    """The path of whole ticks nearest a trace; ``end_error`` is positive if the trace ended farther than the path."""
+    """Return the path of whole ticks nearest a trace; ``end_error`` is positive if the trace ended farther than it."""
     asked = round(trace.held_s / TICK_S)
     matches = [
         _match_path(trace, model, ticks) for ticks in range(max(0, asked - MORE_OR_LESS), asked + MORE_OR_LESS + 1)
@@ -102,7 +102,7 @@ def match_hold(trace: HoldTrace, model: GaitModel) -> MatchedHold:
 
 
 def fit_gait(traces: Sequence[HoldTrace], inertia: float | None = None) -> GaitModel:
-    """The model of one gait's traces; with a known ``inertia`` only the push is fitted.
+    """Return the model of one gait's traces; with a known ``inertia`` only the push is fitted.
 
     Outliers are left out of the fit.
 
@@ -121,7 +121,7 @@ def fit_gait(traces: Sequence[HoldTrace], inertia: float | None = None) -> GaitM
 
 
 def rms(values: Sequence[float]) -> float:
-    """The root of the mean square; 0 for no values."""
+    """Return the root of the mean square; 0 for no values."""
     return float(np.sqrt(np.mean(np.square(values)))) if values else 0.0
 
 
@@ -135,13 +135,13 @@ def _match_path(trace: HoldTrace, model: GaitModel, ticks: int) -> MatchedHold:
 
 
 def _steady_in(traces: Sequence[HoldTrace]) -> float:
-    """Blocks that the longer holds cover per tick."""
+    """Return the blocks that the longer holds cover per tick."""
     longer = sorted(traces, key=lambda trace: trace.held_s)[len(traces) // 3 :]
     return float(np.median([trace.covered[-1] / trace.held_s * TICK_S for trace in longer]))
 
 
 def _first_guesses(problem: "_FitProblem", steady: float, inertia: float | None) -> list[GaitModel]:
-    """The best few of a grid around a steady step, each with an inertia of its own."""
+    """Return the best few of a grid around a steady step, each with an inertia of its own."""
     inertias = _INERTIAS if inertia is None else (inertia,)
     models = [
         min((GaitModel(float(steady * speed * (1 - left)), float(left)) for speed in _SPEEDS), key=problem.cost)
@@ -177,7 +177,7 @@ class _FitProblem:
         self._ends = np.array([trace.covered[-1] for trace in traces])
 
     def cost(self, model: GaitModel) -> float:
-        """Mean square error, each position capped, between the traces and their nearest paths."""
+        """Return the mean square error, each position capped, between the traces and their nearest paths."""
         paths = model.paths(self._most)
         longest = max(map(len, paths))
         # A path stays where it ends.

@@ -40,7 +40,7 @@ ARRIVAL_TOLERANCE = 0.01
 """Blocks that a player may be off the position of a teleport."""
 
 MAX_HOLDS_BACK = 6
-"""Holds per axis that the return to the start may take."""
+"""How many holds per axis the return to the start may take."""
 
 
 WITHOUT_TICKS = (
@@ -75,11 +75,11 @@ def calibrate_walk(profile_name: str | Path, context_of: OpenContext) -> tuple[S
 
 
 def walk(context: CalibrationContext, profile: Profile) -> StepResult:
-    """Measure how the player walks; the profile with its [walk] table, and the keys as they really go.
+    """Measure how the player walks, and return the profile with its [walk] table and the keys as they really go.
 
-    If there is a marked arena and commands are allowed, it walks in the arena's middle, cleared as by every reset, its
-    floor refilled if the profile says what it is of. Else it walks around where the player stands. It never goes
-    farther than ``survey.REACH`` blocks, and ends where it began.
+    If there is a marked arena and commands are allowed, it walks in the arena's middle, cleared as by every reset, with
+    its floor refilled if the profile says which block it is made of. Else it walks around where the player stands. It
+    never goes farther than ``survey.REACH`` blocks, and ends where it began.
 
     Raises:
         ProfileError, FontError: the profile names no font, or one that can't be used.
@@ -119,7 +119,7 @@ def walk(context: CalibrationContext, profile: Profile) -> StepResult:
 
 
 def _measure(profile: Profile, survey: Survey, *, is_floor_free: bool, walks_back: bool) -> StepResult:
-    """The survey, and what fits it. Where the floor isn't known to be free, it is found by sneaking."""
+    """Measure, and return what fits the survey. Where the floor isn't known to be free, it is found by sneaking."""
     keys = survey.find_keys()
     if is_floor_free:
         survey.sneak_on_known_floor()
@@ -155,7 +155,7 @@ def _measure(profile: Profile, survey: Survey, *, is_floor_free: bool, walks_bac
 
 
 def _empirical_result(profile: Profile, keys: KeysTable, found: EmpiricalWalk) -> StepResult:
-    """What a walk without ticks gives, with a warning."""
+    """Return what a walk without ticks gives, with a warning."""
     return StepResult(
         "walk",
         profile.model_copy(update={"keys": keys, "walk": found.table}),
@@ -171,7 +171,7 @@ def _empirical_result(profile: Profile, keys: KeysTable, found: EmpiricalWalk) -
 
 
 def _predict(walk_model: WalkModel, survey: Survey) -> list[float | None]:
-    """The prediction error of each timed hold's end, in blocks; None if it wasn't felt for as many ticks as asked."""
+    """Return each timed hold's prediction error, in blocks; None if it wasn't felt for as many ticks as asked."""
     phase = _between_ticks(walk_model)
     errors: list[float | None] = []
     for index, ticks in enumerate(TIMED):
@@ -182,7 +182,7 @@ def _predict(walk_model: WalkModel, survey: Survey) -> list[float | None]:
 
 
 def _between_ticks(walk_model: WalkModel) -> float:
-    """A time at which a press is felt between two ticks; others are whole ticks from there."""
+    """Return a time at which a press is felt between two ticks; others are whole ticks from there."""
     return walk_model.tick_phase - walk_model.round_trip_s + TICK_S / 2
 
 

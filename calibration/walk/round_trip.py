@@ -58,14 +58,14 @@ class HoldTiming:
 
 
 def round_trip_of(holds: Sequence[HoldTiming]) -> float:
-    """Seconds from a press until its step is seen if a tick comes at once; the estimate from many holds."""
+    """Return the seconds from a press until its step is seen if a tick comes at once; the estimate from many holds."""
     trips = np.arange(0.0, LONGEST_S, 0.0005)
     outside = _outside(_edges(holds), trips[:, np.newaxis]).sum(1)
     return float(np.median(trips[outside <= outside.min() + 1e-9]))
 
 
 def disagreeing(holds: Sequence[HoldTiming], round_trip_s: float) -> float:
-    """The share of all edges that don't fit a round trip: few where a game stalls at times, many where frames are slow.
+    """Return the share of edges that don't fit a round trip: few if a game stalls, many if frames are slow.
 
     In slow frames input waits for a frame and ticks come several at a time, so that edges spread over more than a tick.
     """
@@ -73,7 +73,7 @@ def disagreeing(holds: Sequence[HoldTiming], round_trip_s: float) -> float:
 
 
 def _edges(holds: Sequence[HoldTiming]) -> NDArray[np.float64]:
-    """Seconds from each press, then from each release, until the step of the tick that it decides on is seen."""
+    """Return the seconds from each press, then each release, until the step of the tick that it decides on is seen."""
     first = [hold.first_seen for hold in holds]
     pressed = [at - hold.pressed for hold, at in zip(holds, first, strict=True)]
     released = [at + hold.ticks * TICK_S - hold.released for hold, at in zip(holds, first, strict=True)]
@@ -81,12 +81,12 @@ def _edges(holds: Sequence[HoldTiming]) -> NDArray[np.float64]:
 
 
 def _outside(edges: NDArray[np.float64], trips: NDArray[np.float64] | float) -> NDArray[np.float64]:
-    """Seconds by which each edge is shorter than a round trip, or longer than it and a tick."""
+    """Return the seconds by which each edge is shorter than a round trip, or longer than it and a tick."""
     return np.maximum(trips - edges, 0) + np.maximum(edges - trips - TICK_S, 0)
 
 
 def latencies(round_trip_s: float) -> tuple[float, float]:
-    """A round trip split into input latency and capture latency, in seconds."""
+    """Return a round trip split into input latency and capture latency, in seconds."""
     return round_trip_s * INPUT_SHARE, round_trip_s * (1 - INPUT_SHARE)
 
 

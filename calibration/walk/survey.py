@@ -23,14 +23,14 @@ Direction = Literal["forward", "back", "left", "right"]
 DIRECTIONS: tuple[Direction, ...] = get_args(Direction)
 
 MIN_STEP = 0.1
-"""Blocks below which a step has gone nowhere: sneaking for five ticks covers three times as much."""
+"""A step of fewer blocks than this has gone nowhere: sneaking for five ticks covers three times as much."""
 
 MAX_SIDE_SHARE = 0.25
 """How far sideways a step may lead, as a share of its length."""
 
 
 def direction_of(offset: tuple[float, float]) -> Direction | None:
-    """The direction of an offset in blocks (right, forward); None if it is too short, or between two directions."""
+    """Return the direction of an offset in blocks (right, forward); None if too short, or between two directions."""
     right, forward = offset
     along, aside = max(abs(right), abs(forward)), min(abs(right), abs(forward))
     if along < MIN_STEP or aside > MAX_SIDE_SHARE * along:
@@ -41,7 +41,7 @@ def direction_of(offset: tuple[float, float]) -> Direction | None:
 
 
 def corrected_keys(keys: KeysTable, observed: Mapping[Direction, Direction | None]) -> KeysTable:
-    """The keys, each at the direction that it really goes; ``observed`` says where the key of each direction led.
+    """Return the keys by the direction that each really goes; ``observed`` says where the key of each led.
 
     Raises:
         UserError: a key goes nowhere, or two go the same way.
@@ -62,7 +62,7 @@ def corrected_keys(keys: KeysTable, observed: Mapping[Direction, Direction | Non
 
 
 def describe_keys(before: KeysTable, after: KeysTable) -> str:
-    """Which key goes which way, and which ones the profile had differently."""
+    """Say which key goes which way, and which ones the profile had differently."""
     found = ", ".join(f"{getattr(after, direction)} goes {direction}" for direction in DIRECTIONS)
     changed = [direction for direction in DIRECTIONS if getattr(before, direction) != getattr(after, direction)]
     return f"{found}; the profile had {' and '.join(changed)} the other way round" if changed else found
@@ -90,7 +90,7 @@ TRIES = 3
 """How often a key is tried that seems to do nothing: on a busy machine a press may be lost."""
 
 CARRIED_OFF = 4.0
-"""Blocks from the starting point that can't be reached by these holds."""
+"""More blocks from the starting point than these holds can reach."""
 
 GOLDEN = 0.618
 """Share of a tick by which each hold starts later in the tick than the one before: so all phases are covered evenly."""
@@ -128,7 +128,7 @@ class SurveyHold:
         return max((abs(offset[1 - _axis_of(self.direction)[0]]) for offset in self.recorded.offsets), default=0.0)
 
     def timing(self, at_tick: tuple[int, ...], ticks: int) -> HoldTiming:
-        """Its steps in time; ``at_tick`` says after how many ticks each of the trace's positions was reached."""
+        """Return its steps in time; ``at_tick`` says after how many ticks each of the trace's positions was reached."""
         seen = zip(at_tick, self.recorded.sightings, strict=False)
         return HoldTiming(
             self.recorded.pressed,
@@ -154,7 +154,7 @@ class Survey:
         self.reach = REACH
 
     def find_keys(self) -> KeysTable:
-        """A short sneaking step with each key: the keys as they really go; UserError if they don't go four ways."""
+        """Sneak a short step with each key to find where each really goes; UserError if they don't go four ways."""
         observed: dict[Direction, Direction | None] = {each: self._direction_led(each) for each in DIRECTIONS}
         self.keys = corrected_keys(self.keys, observed)
         return self.keys
@@ -178,7 +178,7 @@ class Survey:
                 self._hold(led, "sneak", KNOWN_FLOOR_TICKS + self._uneven())
 
     def walk(self) -> None:
-        """Walking holds of 1, 2, 3 ticks and more, there and back, as far as the floor is known to be free."""
+        """Walk holds of 1, 2, 3 ticks and more, there and back, as far as the floor is known to be free."""
         long_enough = Deadline(self._clock, LONG_ENOUGH_S)
         for ticks in range(1, LONGEST + 1):
             if ticks > SHORTEST and (ticks * self._step() > self.reach or long_enough.has_passed):
@@ -188,23 +188,23 @@ class Survey:
                     self.hold_homewards(axis, ticks + self._uneven())
 
     def hold_homewards(self, axis: Axis, ticks: float, phase: float | None = None) -> SurveyHold:
-        """A walking hold along an axis, to the side with more floor."""
+        """Walk a hold along an axis, to the side with more floor."""
         offset = self.offset(axis)
         if abs(offset) > CARRIED_OFF:
             raise NotConfirmedError("you were carried off: leave mouse and keys alone while this walks")
         return self._hold(axis[offset < 0 or (offset == 0 and len(self.holds) % 2)], "walk", ticks, phase)
 
     def offset(self, axis: Axis) -> float:
-        """Blocks along an axis from the starting point."""
+        """Return the blocks along an axis from the starting point."""
         return self._walker.position().minus(self.home)[_axis_of(axis[1])[0]]
 
     def _step(self) -> float:
-        """Blocks that a tick of walking covers, by the longest holds so far."""
+        """Return the blocks that a tick of walking covers, by the longest holds so far."""
         longest = [hold.trace for hold in self.holds[-8:] if hold.gait == "walk"]
         return statistics.median(trace.covered[-1] / trace.held_s * TICK_S for trace in longest if trace)
 
     def _direction_led(self, direction: Direction) -> Direction | None:
-        """Where the key that should go this way really leads; None if it leads nowhere in a few tries."""
+        """Return where the key that should go this way really leads; None if it leads nowhere in a few tries."""
         for _ in range(TRIES):
             hold = self._hold(direction, "sneak", PROBE_S / TICK_S)
             if found := direction_of(hold.recorded.end.minus(hold.recorded.begin)):
@@ -213,7 +213,7 @@ class Survey:
         return None
 
     def _sneak_out(self, direction: Direction) -> float:
-        """How far sneaking that way leads. A short way is tried again: a stalled picture looks like a wall."""
+        """Return how far sneaking that way leads. A short way is tried again: a stalled picture looks like a wall."""
         axis, sign = _axis_of(direction)
         covered = 0.0
         for _ in range(TRIES):
@@ -241,10 +241,10 @@ class Survey:
         return hold
 
     def _uneven(self) -> float:
-        """Share of a tick, longer or shorter than whole ones, so that releases come at every phase, too."""
+        """Return a share of a tick, longer or shorter than whole ones, so that releases come at every phase, too."""
         return (len(self.holds) * GOLDEN * GOLDEN) % 0.8 - 0.4
 
 
 def _axis_of(direction: Direction) -> tuple[int, int]:
-    """The axis (0 right, 1 forward) and the sign of a direction."""
+    """Return the axis (0 right, 1 forward) and the sign of a direction."""
     return (0 if direction in SIDE_AXIS else 1), (1 if direction in ("right", "forward") else -1)

@@ -28,7 +28,7 @@ MAX_ASIDE = 0.05
 """Blocks that a hold may lead sideways."""
 
 MAX_ERROR = 0.02
-"""Blocks (RMS) that predictions may be off; beyond that the profile is left as it was."""
+"""Blocks (RMS) by which predictions may be off; if they are off by more, the profile is left as it was."""
 
 PLAIN_SPEED = displacement(200) / 200 / TICK_S
 """Blocks a second of a plain walker on most blocks: 4.317 (FACTS: Walking)."""
@@ -112,7 +112,7 @@ class WalkModel:
 
 
 def fit_walk_model(holds: Sequence[SurveyHold]) -> WalkModel:
-    """The model that fits the holds.
+    """Return the model that fits the holds.
 
     Raises:
         NotConfirmedError: too few of them could be followed, or they don't agree, or sneaking isn't slower.
@@ -163,7 +163,7 @@ def fit_walk_model(holds: Sequence[SurveyHold]) -> WalkModel:
 
 
 def _held_out_rms(traces: Sequence[HoldTrace]) -> float:
-    """The end errors of held-out traces, predicted by a fit of the others: root of the mean square, in blocks."""
+    """Return the RMS of the held-out traces' end errors, predicted by a fit of the other traces, in blocks."""
     others = [trace for index, trace in enumerate(traces) if index % HELD_OUT]
     model = fit_gait(others)
     held_out = [match_hold(trace, model) for index, trace in enumerate(traces) if not index % HELD_OUT]
@@ -174,7 +174,7 @@ TICKS = 12
 """Ticks up to which a profile says how far a hold leads."""
 
 SHORTEST_STEP = 0.01
-"""Blocks that a tick more leads farther, at least, on a line that would begin below zero."""
+"""On a line that would begin below zero, every further tick leads at least so many blocks farther."""
 
 MAX_ERROR_OF_LINE = 0.05
 """Blocks (RMS) that holds may end off the line: Minecraft's own, of whole ticks, end 0.06 off and more."""
@@ -200,7 +200,7 @@ class EmpiricalWalk:
 
 
 def empirical_walk(holds: Sequence[SurveyHold], usual: WalkTable) -> EmpiricalWalk | None:
-    """Lines through the holds; None where there are too few, or they don't lie on one, or sneaking isn't slower.
+    """Fit lines through the holds; None if there are too few, or they don't lie on one, or sneaking isn't slower.
 
     ``usual`` gives the inertia and the latencies.
     """
@@ -229,7 +229,7 @@ def empirical_walk(holds: Sequence[SurveyHold], usual: WalkTable) -> EmpiricalWa
 
 
 def _line(traces: Sequence[HoldTrace]) -> tuple[float, float]:
-    """The speed, in blocks a second, and the blocks at a hold of no length, of the line nearest the holds' ends."""
+    """Fit a line to the holds' ends; return its speed, in blocks a second, and its blocks at a hold of no length."""
     held = np.array([trace.held_s for trace in traces], np.float64)
     ends = np.array([trace.covered[-1] for trace in traces], np.float64)
     slope, start = np.polyfit(held, ends, 1)

@@ -55,7 +55,7 @@ class _Recording:
         self.sightings: list[Sighting] = []
 
     def add(self, pose: PoseEstimate) -> None:
-        """Take in a pose; one at another position than the last is a sighting."""
+        """Take in a pose; one at another position than the last counts as a sighting."""
         if pose.position != self._latest:
             self.sightings.append(Sighting(self._since, pose.at, pose.position))
         self._latest, self._since = pose.position, pose.at
@@ -77,11 +77,11 @@ class Walker:
         self._rest: GroundVector | None = None
 
     def position(self) -> GroundVector:
-        """Where the player is now."""
+        """Return where the player is now."""
         return self._look().position
 
     def stand(self) -> GroundVector:
-        """Wait until the player stands still; the position then. No wait is needed where the last one ended."""
+        """Wait until the player stands still; return the position then. No wait is needed where the last one ended."""
         pose = self._look()
         if pose.position == self._rest:
             return pose.position
@@ -133,7 +133,7 @@ class Walker:
         return RecordedHold(pressed, released, begin, tuple(recording.sightings))
 
     def _follow(self, pose: PoseEstimate, standstill: Standstill, recording: _Recording) -> GroundVector:
-        """Record the walker, with its keys up, until standstill; where it stands."""
+        """Record the walker, with its keys up, until standstill; return where it stands."""
 
         def is_over(latest: PoseEstimate) -> bool:
             # Waits this short don't check whether the window is still in front.

@@ -140,7 +140,7 @@ def calibrate_and_play(settings: ClientSettings, folder: Path, actions: int, sce
 
 
 def context_opener_for(client: VirtualClient) -> OpenContext:
-    """Opens contexts on a client, connected as on a desktop, whose person says yes to everything."""
+    """Return what opens contexts on a client, connected as on a desktop, whose person says yes to everything."""
 
     @contextmanager
     def opened(profile: Profile) -> Iterator[CalibrationContext]:
@@ -151,7 +151,7 @@ def context_opener_for(client: VirtualClient) -> OpenContext:
 
 
 def doctor_for(client: VirtualClient, folder: Path) -> Examine:
-    """The doctor, on a computer without any launcher's folder, whose one window is the client's."""
+    """Return the doctor, on a computer without any launcher's folder, whose one window is the client's."""
 
     @contextmanager
     def open_devices(_title: str) -> Iterator[Devices]:
@@ -173,7 +173,7 @@ def doctor_for(client: VirtualClient, folder: Path) -> Examine:
 
 
 def live_game(client: VirtualClient, profile: Profile, scenario: Scenario) -> LiveGame:
-    """A live game on a client, from the profile alone."""
+    """Return a live game on a client, from the profile alone."""
     return LiveGame(scenario, profile, connect(profile, client.devices))
 
 
@@ -185,14 +185,14 @@ def write_font(folder: Path) -> Path:
 
 
 def walk_rms(profile: Profile, settings: ClientSettings) -> float:
-    """Root mean square, in blocks, of the differences between a profile's walk and the client's physics."""
+    """Return root mean square, in blocks, of the differences between a profile's walk and the client's physics."""
     ground = Ground(settings.slipperiness, settings.speed)
     errors = [covered - displacement(ticks, "walk", ground) for ticks, covered in enumerate(profile.walk.covered, 1)]
     return math.sqrt(statistics.fmean(each**2 for each in errors))
 
 
 def click_errors(profile: Profile, client: VirtualClient) -> Iterator[float]:
-    """Each recorded point's distance from its button's middle in GUI pixels, along the worse axis."""
+    """Yield each recorded point's distance from its button's middle in GUI pixels, along the worse axis."""
     (width, height), scale = client.window.size, client.scale
     for name, (screen, label) in BUTTONS.items():
         if name not in profile.points:
@@ -205,7 +205,7 @@ def click_errors(profile: Profile, client: VirtualClient) -> Iterator[float]:
 
 
 def report(results: Sequence[ClientResult]) -> dict[str, Any]:
-    """What --json prints."""
+    """Return what --json prints."""
     good = [each for each in results if not each.problem]
     times = [each.game_s for each in results]
     errors = [error for each in good for error in each.click_errors]

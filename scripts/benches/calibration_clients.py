@@ -50,7 +50,7 @@ LEAST_WIDTH = 320
 
 
 def every_version(seed: int) -> Iterator[ClientSettings]:
-    """Each version in each of SIZES and some random ones, the options at their defaults, the GUI scale too (Auto).
+    """Yield each version in each of SIZES and some random ones, all options at their defaults, GUI scale Auto.
 
     To 1.21.8 the random ones are as wide as the doctor asks for.
     """
@@ -63,7 +63,7 @@ def every_version(seed: int) -> Iterator[ClientSettings]:
 
 
 def clients(count: int, seed: int) -> Iterator[ClientSettings]:
-    """``count`` clients, the same for the same seed; all versions are equally frequent."""
+    """Yield ``count`` clients, the same for the same seed; all versions are equally frequent."""
     rng = np.random.default_rng(seed)
     rounds = -(-count // len(VERSIONS))
     versions = [version for _ in range(rounds) for version in rng.permutation(VERSIONS)]
@@ -99,7 +99,7 @@ def _client(rng: np.random.Generator, version: str) -> ClientSettings:
 
 
 def _window(rng: np.random.Generator) -> tuple[tuple[int, int], int]:
-    """A size, odd or even, and a GUI scale that fits it; 0 is auto."""
+    """Return a size, odd or even, and a GUI scale that fits it; 0 is auto."""
     while True:
         size, scale = _size(rng), int(rng.integers(0, 6))
         if size[0] >= NARROWEST * gui_scale(size, scale):
@@ -111,13 +111,13 @@ def _size(rng: np.random.Generator) -> Size:
 
 
 def _size_of(rng: np.random.Generator, narrowest: int) -> Size:
-    """A window of at least so many GUI pixels of width at GUI scale Auto."""
+    """Return a window of at least so many GUI pixels of width at GUI scale Auto."""
     while (size := _size(rng))[0] < narrowest * gui_scale(size, 0):
         pass
     return size
 
 
 def _latency(rng: np.random.Generator, least: float, most: float, spread: float) -> tuple[float, float]:
-    """The least and the most latency of a client, in seconds."""
+    """Return the least and the most latency of a client, in seconds."""
     begin = float(rng.uniform(least, most))
     return begin, begin + float(rng.uniform(0.0, spread))

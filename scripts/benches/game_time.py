@@ -49,8 +49,8 @@ MOST_MINUTES, MOST_MINUTES_WITH_MISHAPS = 4.0, 8.0
 class PracticeOnAClock:
     """A background whose work gets a second of the processor for each second on the game's clock.
 
-    The work is done when it is ended, with as much time as has passed on that clock since it began, and the seconds
-    longer. ``waited_s`` sums up what it took beyond the passed time.
+    The work is done all at once, when it is ended. It gets the time that has passed on that clock since it began, and
+    those seconds that it is ended with. ``waited_s`` sums up what it took beyond the passed time.
     """
 
     def __init__(self, now: Callable[[], float], processor: Callable[[], float] = time.thread_time) -> None:
@@ -61,7 +61,7 @@ class PracticeOnAClock:
         self.cut_short = 0
 
     def begin(self, work: Callable[[GoesOn], None]) -> None:
-        """Take on that work."""
+        """Take on that work, which ``end`` does."""
         self._work, self._began = work, self._now()
 
     def end(self, longer_s: float = 0.0) -> None:
@@ -174,14 +174,14 @@ def train(scenario: Scenario, seed: int, preset: Preset, rate: float) -> Trial:
 
 
 def wrongly_learnt(learnt: list[list[int]], episodes: list[list[Transition]]) -> int:
-    """How many learnt transitions aren't those of the last RECENT episodes, in their order, or are missing."""
+    """Count the learnt transitions that aren't those of the last RECENT episodes, in their order, or are missing."""
     expected = [list(transition) for episode in episodes[-RECENT:] for transition in episode]
     differ = sum(one != other for one, other in zip(learnt, expected, strict=False))
     return differ + abs(len(learnt) - len(expected))
 
 
 def medians(trials: list[Trial]) -> dict[str, float]:
-    """The median minutes of each scenario."""
+    """Return the median minutes of each scenario."""
     names = dict.fromkeys(trial.scenario for trial in trials)
     return {name: statistics.median(trial.minutes for trial in trials if trial.scenario == name) for name in names}
 

@@ -61,7 +61,7 @@ class Reached:
 
 
 def scattered(designs: int) -> list[Scenario]:
-    """The first scattered designs of a benchmark of seed 0."""
+    """Return the first scattered designs of a benchmark of seed 0."""
     like, every = load_scenario(LIKE), range(KINDS.index(SCATTERED), designs * len(KINDS), len(KINDS))
     return [random_scenario(0, number, like) for number in every]
 
@@ -93,12 +93,12 @@ def until_optimum(scenario: Scenario, preset: Preset, seed: int, games: int, pac
 
 
 def size_of(sent: EpisodePlan | PlayedEpisode) -> int:
-    """Its bytes as a pickle."""
+    """Return its bytes as a pickle."""
     return len(pickle.dumps(sent))
 
 
 def live(enough: float | None) -> Preset:
-    """The preset model-based, with another share of the best imaginable that ends a practice."""
+    """Return the preset model-based, with another share of the best imaginable that ends a practice."""
     preset = load_preset("model-based")
     if enough is None or preset.imagination is None:
         return preset

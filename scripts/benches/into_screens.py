@@ -19,7 +19,7 @@ FORGOTTEN_S = 1.0
 class ScreenPresses:
     """Watches a client's presses. ``into_screens`` of them could have been seen to go wrong, ``too_late`` could not.
 
-    A press could not where the screen opened after the newest picture that was to be had when it was sent.
+    A press is too late if the screen opened after the newest picture that could be had when the press was sent.
     """
 
     def __init__(self, client: VirtualClient) -> None:
@@ -28,7 +28,7 @@ class ScreenPresses:
         self._meant: deque[tuple[str, float, float]] = deque()
         """Of each press on its way: its name, when it was sent, and when the newest picture to be had was drawn."""
         self._drawn_at = math.inf
-        """Since when a screen over the world is drawn: the game draws it at the tick after it opened."""
+        """When a screen over the world was first drawn: the game draws it at the tick after it opened."""
         display, controls = client.display, client.controls
         show, key, button = display.show, controls.key, controls.button
 
@@ -51,11 +51,11 @@ class ScreenPresses:
         controls.key, controls.button = watched_key, watched_button  # type: ignore[method-assign,assignment]  # too
 
     def controller(self) -> InputController:
-        """The owner of held keys, whose presses are watched."""
+        """Return the owner of held keys, whose presses are watched."""
         return _WatchedController(self._client.devices, InputTable(), self)
 
     def sent(self, name: str) -> None:
-        """Something is pressed that is meant for the world."""
+        """Note that something is pressed that is meant for the world."""
         client = self._client
         if client.window.is_in_front:
             now, frame_s = client.clock.now(), 1 / client.settings.fps

@@ -41,7 +41,7 @@ MOST_RUNS = 90
 
 
 def ours(runs: int, preset: Preset) -> Slices:
-    """This project's trainer with that many runs; the main agent's updates are left out of the count.
+    """Return this project's trainer with that many runs; the main agent's updates are left out of the count.
 
     Where all runs have had their episodes, others begin.
     """
@@ -61,14 +61,14 @@ def ours(runs: int, preset: Preset) -> Slices:
 
 
 def trainer_of(runs: int, preset: Preset, seed: int) -> Trainer:
-    """That many runs of the nested agent on the line."""
+    """Return that many runs of the nested agent on the line."""
     scenarios = [LINE] * runs
     agent = Agent(AGENT_SPECS["nested"], scenarios, preset, seed)
     return Trainer(agent.view_of(GridVectorEnv(scenarios), scenarios), scenarios, agent, preset, seed)
 
 
 def matrix_products(runs: int) -> Slices:
-    """The products of the hidden layer alone, as one bmm; counted in FLOPs, in thousands."""
+    """Return the products of the hidden layer alone, as one bmm; counted in FLOPs, in thousands."""
     width, columns = PAPER.hidden[0], 2 * PAPER.update.batch
     weights, states = torch.randn(runs, width, width), torch.randn(runs, width, columns)
     out = torch.empty(runs, width, columns)
@@ -82,10 +82,10 @@ def matrix_products(runs: int) -> Slices:
 
 
 def flops_of_an_update() -> int:
-    """Multiplications and additions in the matrix products of one update of the nested agent (paper, equation 4).
+    """Count the multiplications and additions in an update's matrix products of the nested agent (paper, equation 4).
 
-    Forward s and s' in the online network and s' in the target network, back the gradient of every weight, and of every
-    layer's input but the first.
+    Forward pass: s and s' in the online network, s' in the target network. Backward pass: the gradient of every weight,
+    and of every layer's input but the first layer's.
     """
     layers = list(itertools.pairwise((4, *PAPER.hidden, 8)))
     passes = sum((5 if layer else 4) * inputs * outputs for layer, (inputs, outputs) in enumerate(layers))
@@ -93,7 +93,7 @@ def flops_of_an_update() -> int:
 
 
 def contestant(name: str, core: int, cores: int) -> Slices | None:
-    """The work of the process on that core for a contestant; None if it has none."""
+    """Return the work of the process on that core for a contestant; None if it has none."""
     if name == "plain loop":
         return plain_loop()
     if name == "stable-baselines3":
@@ -108,7 +108,7 @@ def contestant(name: str, core: int, cores: int) -> Slices | None:
 
 
 def on_a_core(pipe: Connection, names: Sequence[str], core: int, cores: int) -> None:
-    """A process of its own: whenever a contestant and seconds come in, its updates a second go out."""
+    """Serve as a process of its own: for each contestant and seconds that come in, send its updates a second."""
     torch.set_num_threads(1)
     work = {name: contestant(name, core, cores) for name in names}
     while (task := pipe.recv()) is not None:
@@ -118,7 +118,7 @@ def on_a_core(pipe: Connection, names: Sequence[str], core: int, cores: int) -> 
 
 
 def rate(work: Slices, seconds: float) -> float:
-    """Updates a second over at least that long."""
+    """Return the updates a second over at least that long."""
     began, updates = time.perf_counter(), 0
     while (took := time.perf_counter() - began) < seconds:
         updates += work()
@@ -126,14 +126,14 @@ def rate(work: Slices, seconds: float) -> float:
 
 
 def ours_named(runs: Sequence[int]) -> list[str]:
-    """The contestants of this project: what it is measured with (PRESETS), and so many runs."""
+    """Return the contestants of this project: what it is measured with (PRESETS), and so many runs."""
     torch_runs = sorted({1, max(runs)})
     counts = {"compiled": runs, "torch": torch_runs, "images": [count for count in IMAGE_RUNS if count <= max(runs)]}
     return [f"{kind} {count}" for kind, own in counts.items() for count in own]
 
 
 def rates_of(runs: Sequence[int], rounds: int, slice_s: float, cores: int) -> dict[str, list[float]]:
-    """Updates a second of each contestant on all cores together, a figure a round."""
+    """Return the updates a second of each contestant on all cores together, a figure a round."""
     names = [*ours_named(runs), "plain loop", "plain loop, one", "bmm"]
     if importlib.util.find_spec("stable_baselines3"):
         names.append("stable-baselines3")
@@ -163,12 +163,12 @@ def rates_of(runs: Sequence[int], rounds: int, slice_s: float, cores: int) -> di
 
 
 def ratio(rates: dict[str, list[float]], one: str, other: str) -> float:
-    """How many times as fast the one is as the other: the median over the rounds."""
+    """Return how many times as fast the one is as the other: the median over the rounds."""
     return statistics.median(a / b for a, b in zip(rates[one], rates[other], strict=True))
 
 
 def summary(rates: dict[str, list[float]], runs: Sequence[int], cores: int) -> Figures:
-    """The figures as one JSON object; every ratio at the largest number of runs but ``ratio_one_run``."""
+    """Return the figures as one JSON object; every ratio at the largest number of runs but ``ratio_one_run``."""
     medians = {name: statistics.median(found) for name, found in rates.items()}
     most, has_sb3 = f"compiled {max(runs)}", "stable-baselines3" in rates
     limit = medians["bmm"] * 1000 / flops_of_an_update()

@@ -51,7 +51,7 @@ MISHAP_WITHIN_S = 0.5
 """A mishap happens at a random moment within this time after it is drawn: in that action or in the next one."""
 
 VERSION = "1.20.1"
-"""The game's, if no other is asked for."""
+"""The version of the game, if no other is asked for."""
 
 OPEN_SCREENS: tuple[Kind, ...] = ("lost_focus", "pause", "death", "inventory", "chat", "disconnect")
 """The mishaps after which a screen lies over the world; a game without the focus pauses."""
@@ -128,14 +128,14 @@ def play_on(
 
 
 def planned_mishaps(count: int, rng: np.random.Generator) -> dict[int, Kind]:
-    """Before which of so many actions a mishap that opens a screen comes: each kind PLANNED times, if they fit."""
+    """Return before which of so many actions a mishap opens a screen: each kind PLANNED times, if they fit."""
     kinds = [kind for kind in OPEN_SCREENS for _ in range(PLANNED)]
     at = rng.permutation(count)[: len(kinds)]
     return {int(step): kind for step, kind in zip(at, kinds, strict=False)}
 
 
 def calibrated_walk(client: VirtualClient) -> WalkTable:
-    """The walk of a client's player and its latencies, as `calibrate walk` measures them around where it stands."""
+    """Measure the walk of a client's player and its latencies, as `calibrate walk` does around where it stands."""
     with tempfile.TemporaryDirectory() as folder:
         font = Path(folder) / "ascii.png"
         font.write_bytes(cv2.imencode(".png", drawn_atlas())[1].tobytes())
@@ -151,7 +151,10 @@ def live_game(
     walk_table: WalkTable | None = None,
     controller: InputController | None = None,
 ) -> LiveGame:
-    """A live game on a virtual client, whose player walks like that, or as usual; pressed by that controller."""
+    """Return a live game on a virtual client.
+
+    Its player walks as in ``walk_table``, or as usual; ``controller``, if given, presses its keys.
+    """
     return LiveGame(
         scenario,
         Profile(game=GameVersion(version=client.settings.version), arena=arena, walk=walk_table or WalkTable()),
@@ -160,7 +163,7 @@ def live_game(
 
 
 def connection_to(client: VirtualClient, controller: InputController | None = None) -> GameConnection:
-    """A connection to a virtual client, read with its own font."""
+    """Return a connection to a virtual client, read with its own font."""
     screen = WindowScreen(client.display, _font(), version=client.settings.version)
     return GameConnection(client.devices, controller or InputController(client.devices, InputTable()), screen)
 

@@ -200,13 +200,13 @@ def play_in(
 
 
 def is_over(cell: Cell, placed: set[Cell], steps: int, scenario: Scenario) -> bool:
-    """Whether an episode ends here: no block is left, or no step, or the agent has walled itself in."""
+    """Return whether an episode ends here: no block is left, or no step, or the agent has walled itself in."""
     is_out = len(placed) == scenario.blocks or steps == scenario.step_limit
     return is_out or next(_possible(cell, placed, scenario.size), None) is None
 
 
 def drawn_action(rng: np.random.Generator, cell: Cell, placed: set[Cell], size: int) -> Action:
-    """A random action among those that the rules don't void."""
+    """Return a random action among those that the rules don't void."""
     return Action(int(rng.choice([int(action) for action in _possible(cell, placed, size)])))
 
 
@@ -218,7 +218,7 @@ def _possible(cell: Cell, placed: set[Cell], size: int) -> Iterator[Action]:
 
 
 def figures_of(played: PlayCounts) -> dict[str, Any]:
-    """The counts and times of playing without mishaps, as JSON holds them."""
+    """Return the counts and times of playing without mishaps, as JSON holds them."""
     every = sorted([*played.moves_s, *played.placings_s])
     counts = ("actions", "wrong_cells", "wrong_blocks", "failed_actions", "corrections", "second_clicks")
     return {

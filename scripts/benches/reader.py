@@ -136,7 +136,7 @@ def read_frames(
 def pairs(
     font: Font, seed: int, count: int, layouts: tuple[Layout, ...] = LAYOUTS
 ) -> Iterator[tuple[tuple[F3Screen, Frame], tuple[F3Screen, Frame]]]:
-    """Painted screens with their frames, each with the one a tick later."""
+    """Yield painted screens with their frames, each with the one a tick later."""
     rng = np.random.default_rng(seed)
     for screen, frame in itertools.islice(frames(font, seed, WINDOWS, layouts), count):
         x, y, z = screen.xyz
@@ -146,7 +146,7 @@ def pairs(
 
 
 def tesseract_reads(font: Font, screen: F3Screen, frame: Frame) -> list[tuple[bool, float]]:
-    """Whether Tesseract reads the XYZ line of this frame, and the seconds it takes; nothing where there is no line."""
+    """Return whether Tesseract reads this frame's XYZ line, and the seconds it takes; nothing if there is no line."""
     found = find_debug_screen(frame, font)
     if found is None or found.label != POSITION:
         return []
@@ -168,7 +168,7 @@ def tesseract_reads(font: Font, screen: F3Screen, frame: Frame) -> list[tuple[bo
 
 
 def workload_ms() -> float:
-    """Milliseconds for sorting the rows of a 1080 x 1920 picture: the same work on every machine."""
+    """Return the milliseconds for sorting the rows of a 1080 x 1920 picture: the same work on every machine."""
     picture = np.random.default_rng(0).integers(0, 256, FULL_HD, np.uint8)
     return _median_ms([_timed(lambda: np.sort(picture, axis=1))[1] for _ in range(9)]) or 0.0
 
@@ -178,7 +178,7 @@ def _decimals(screen: F3Screen) -> tuple[int, int, int]:
 
 
 def _for_tesseract(line: Frame, scale: int) -> Frame:
-    """Letters 28 pixels high: of several ways to prepare the lines, the one it read most of."""
+    """Return letters 28 pixels high: of several ways to prepare lines, Tesseract read most of them this way."""
     ink = cv2.inRange(line, (220,) * 3, (255,) * 3)
     large = cv2.resize(cv2.bitwise_not(ink), None, fx=4 / scale, fy=4 / scale, interpolation=cv2.INTER_NEAREST)
     framed = cv2.copyMakeBorder(large, 20, 20, 20, 20, cv2.BORDER_CONSTANT, value=(255,))

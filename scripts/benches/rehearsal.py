@@ -113,7 +113,7 @@ def prepare(say: Say) -> None:
 
 
 def is_right_under(condition: Condition, figures: dict[str, Any]) -> bool:
-    """Whether nothing was wrong, and the usual condition is within its targets."""
+    """Return whether nothing was wrong, and the usual condition is within its targets."""
     if "problem" in figures or figures["wrong_cells"] or figures["wrong_blocks"]:
         return False
     if condition != USUAL:

@@ -17,7 +17,7 @@ Slices = Callable[[], int]
 
 
 def plain_loop() -> Slices:
-    """A hand-written DDQN loop as one writes it: one run, torch modules, autograd, a replay in NumPy arrays."""
+    """Run a hand-written DDQN loop as one writes it: one run, torch modules, autograd, a replay in NumPy arrays."""
     updates = _plain_ddqn()
 
     def work() -> int:
@@ -29,7 +29,7 @@ def plain_loop() -> Slices:
 
 
 def _plain_ddqn() -> Iterator[None]:
-    """Yields after each update."""
+    """Yield after each update."""
     random = np.random.default_rng(0)
     env = arena_env(LINE)
     online, target = _network(), _network()
@@ -85,7 +85,7 @@ def _features(observation: np.ndarray) -> np.ndarray:
 
 
 def sb3() -> Slices:
-    """stable-baselines3's DQN on the same Env; single, not double, so a little less work."""
+    """Run stable-baselines3's DQN on the same Env; single, not double, so a little less work."""
     from stable_baselines3 import DQN
     from stable_baselines3.common.logger import Logger
 

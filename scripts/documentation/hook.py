@@ -52,12 +52,12 @@ MADE = re.compile(r"^<!-- made from the code: ([a-z ]+) -->$", re.MULTILINE)
 
 
 def program(file: str) -> str:
-    """The text of a Python program, named from the project's root."""
+    """Return the text of a Python program, named from the project's root."""
     return f"```python\n{(ROOT / file).read_text('utf-8').rstrip()}\n```"
 
 
 def shipped_files(folder: str, names: list[str]) -> str:
-    """The text of shipped TOML files, each under its name."""
+    """Return the text of shipped TOML files, each under its name."""
     texts = ((name, (ROOT / folder / f"{name}.toml").read_text("utf-8").rstrip()) for name in names)
     return "\n\n".join(f"### {name}\n\n```toml\n{text}\n```" for name, text in texts)
 
@@ -77,7 +77,7 @@ MAKERS: dict[str, Callable[[], str]] = {
 
 
 def on_files(files: Files, config: MkDocsConfig) -> Files:
-    """MkDocs' event: add what lies outside of docs/."""
+    """Add what lies outside of docs/ (MkDocs' event)."""
     pictures = [path for path in sorted((ROOT / PICTURES).iterdir()) if path.suffix in SUFFIXES]
     for path in [*(ROOT / name for name in PAGES), *pictures]:
         place = place_of(path.relative_to(ROOT).as_posix())
@@ -87,7 +87,7 @@ def on_files(files: Files, config: MkDocsConfig) -> Files:
 
 
 def on_page_markdown(markdown: str, page: Page, config: MkDocsConfig, files: Files) -> str:  # noqa: ARG001 - MkDocs' names
-    """MkDocs' event: make what the page asks for, and mend its links."""
+    """Make what the page asks for, and mend its links (MkDocs' event)."""
     place = page.file.src_uri
     if place == "index.md":  # it has no pages beside it
         page.meta["hide"] = ["navigation"]
@@ -99,7 +99,7 @@ def on_page_markdown(markdown: str, page: Page, config: MkDocsConfig, files: Fil
 
 
 def place_of(file: str) -> str | None:
-    """Where a file, named from the project's root, is on the site; None if it isn't there."""
+    """Return where a file, named from the project's root, is on the site; None if it isn't there."""
     path = PurePosixPath(file)
     if file in PAGES:
         return PAGES[file]
@@ -111,12 +111,12 @@ def place_of(file: str) -> str | None:
 
 
 def file_of(place: str) -> str:
-    """The file, named from the project's root, of a page of the site."""
+    """Return the file, named from the project's root, of a page of the site."""
     return next((file for file, at in PAGES.items() if at == place), f"docs/{place}")
 
 
 def with_links_of_site(markdown: str, place: str, lost: Callable[[str], None]) -> str:
-    """A page's Markdown with each link to a file of the project turned into one on the site.
+    """Return a page's Markdown with each link to a file of the project turned into one on the site.
 
     Args:
         markdown: the page, as it is in the project.
@@ -140,14 +140,14 @@ def with_links_of_site(markdown: str, place: str, lost: Callable[[str], None]) -
 
 
 def on_page_content(html: str, page: Page, config: MkDocsConfig, files: Files) -> str:  # noqa: ARG001 - MkDocs' names
-    """MkDocs' event: give a page without sections the room of their list, and keep words of code whole in tables."""
+    """Give a page without sections the room of their list, and keep words of code whole in tables (MkDocs' event)."""
     if not any(heading.children for heading in page.toc):
         page.meta["hide"] = [*page.meta.get("hide", []), "toc"]
     return with_whole_words(html)
 
 
 def with_whole_words(html: str) -> str:
-    """The page with each word of code in a table in a span: a browser would end a line behind each hyphen."""
+    """Return the page with each code word in a table in a span: a browser would break it at a hyphen."""
     return _CELL.sub(lambda cell: _CODE.sub(_spans, cell[0]), html)
 
 
@@ -157,7 +157,7 @@ def _spans(code: re.Match[str]) -> str:
 
 
 def made(markdown: str) -> str:
-    """A page with each part that it asks for; PluginError if nothing makes one."""
+    """Make each part that a page asks for, and return the page; PluginError if nothing makes one."""
     return MADE.sub(_made, markdown)
 
 

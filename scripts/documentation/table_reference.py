@@ -14,7 +14,7 @@ Schema = dict[str, Any]
 
 
 def markdown(model: type[BaseModel]) -> str:
-    """A section for the keys at the top of the file, if there are any, and one for each table."""
+    """Return a section for the keys at the top of the file, if there are any, and one for each table."""
     schema = model.model_json_schema(by_alias=False)
     required = schema.get("required", [])
     plain = {key: value for key, value in schema["properties"].items() if not _is_table(value)}
@@ -56,7 +56,7 @@ def _keys(properties: dict[str, Schema], required: list[str]) -> str:
 
 
 def words_of(schema: Schema) -> str:
-    """What a value may be, in words: its kind and its limits."""
+    """Say in words what a value may be: its kind and its limits."""
     if "anyOf" in schema:
         return " or ".join(words_of(kind) for kind in schema["anyOf"] if kind.get("type") != "null")
     if "const" in schema:
@@ -99,7 +99,7 @@ def _is_table(schema: Schema) -> bool:
 
 
 def _model_of(schema: Schema) -> str | None:
-    """The name of the model below a key; None for a key that holds a value."""
+    """Return the name of the model below a key; None for a key that holds a value."""
     found = [kind.get("$ref") for kind in (schema, *schema.get("anyOf", []), schema.get("items", {}))]
     named = [reference for reference in found if reference]
     return named[0].rpartition("/")[2] if named else None

@@ -46,7 +46,7 @@ class QNetwork(nn.Module):
         return self.layers(torch.cat(parts, dim=1).float())
 
     def greedy(self, observations: NDArray[np.int64]) -> NDArray[np.int64]:
-        """The best action (batch,) of each observation."""
+        """Return the best action (batch,) of each observation."""
         with torch.no_grad():
             best: NDArray[np.int64] = self(torch.as_tensor(observations)).argmax(1).numpy()
         return best
@@ -92,7 +92,7 @@ def train(envs: RecordEpisodeStatistics[Any, Any], steps: int, seed: int) -> QNe
 
 
 def greedy_score(envs: RecordEpisodeStatistics[Any, Any], q: QNetwork) -> float:
-    """The score of a greedy episode of the first arena."""
+    """Return the score of a greedy episode of the first arena."""
     observations, _ = envs.reset()
     while True:
         observations, _, terminated, truncated, info = envs.step(q.greedy(observations))

@@ -63,7 +63,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def greedy_score(env: gymnasium.Env[Any, Any], model: Any) -> float:
-    """The score of a greedy episode."""
+    """Return the score of a greedy episode."""
     observation, _ = env.reset()
     while True:
         action, _ = model.predict(observation, deterministic=True)

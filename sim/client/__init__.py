@@ -8,7 +8,8 @@ game/        the game, a tick at a time; it knows no pixels
     physics.py                                      walking, sprinting, falling, bumping
     controls.py  keys.py                            what keys, buttons and the mouse do on each screen
     chat.py  commands/                              messages, and chat commands of each version (edition.py)
-    screens.py  widgets.py                          menus: their texts and buttons
+    screens.py  widgets.py  debug_options.py        menus: their texts and buttons
+    options.py                                      the lines of options.txt that change how it looks or acts
     f3_screen.py  f3_text.py                        what the debug screen is about, and its lines to 1.21.8
     debug_entries.py  entry_lines.py                which entries are on, from 1.21.9 on; their lines to 26.3
     entry_boxes.py                                  their boxes from 26.4 on, and where each of them stands

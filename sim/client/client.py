@@ -127,11 +127,11 @@ class VirtualClient:
         return self.realm.world.built()
 
     def cell(self, arena: Arena) -> Cell:
-        """The arena's cell that the player truly is in."""
+        """Return the arena's cell that the player truly is in."""
         return cell_at(arena.position_of(self.realm.player.feet))
 
     def placed(self, arena: Arena) -> set[Cell]:
-        """The cells of an arena's ground floor that hold a block; blocks elsewhere are only in ``built``."""
+        """Return the cells of an arena's ground floor that hold a block; blocks elsewhere are only in ``built``."""
         standing = (block for block, name in self.built.items() if name != AIR and block[1] == arena.origin[1])
         return {cell_at(arena.position_of((x + 0.5, float(y), z + 0.5))) for x, y, z in standing}
 
@@ -153,7 +153,7 @@ class VirtualClient:
         return self.window.is_in_front and self.game.screen == "world"
 
     def new_layers(self) -> ViewLayers:
-        """What a view's GUI is made of, in the window's present size."""
+        """Return the layers that draw a view's GUI, in the window's present size."""
         settings = self.settings
         return ViewLayers(self.window.size, self.scales, self._font, self.edition, settings.words)
 
@@ -201,7 +201,7 @@ class VirtualClient:
         self.window.pointer = (x - right, y - down)
 
     def _new_realm(self, joined: Realm | None) -> Realm:
-        """The world as this client's player knows it: one of its own, or that of another player."""
+        """Return the world as this client's player knows it: one of its own, or that of another player."""
         settings = self.settings
         world = joined.world if joined else VirtualWorld(math.floor(settings.feet[1]), settings.floor_block)
         player = Player(settings.feet, settings.yaw, settings.pitch, mode=settings.mode)
@@ -230,7 +230,7 @@ class VirtualClient:
         return Painter(size, self.scales, self._font, self.edition, settings.world, settings.seed, settings.words)
 
     def _view(self) -> View:
-        """What the game shows, in this window."""
+        """Return what the game shows in this window."""
         settings = self.settings
         fps = round(settings.fps if settings.shown_fps is None else settings.shown_fps)
         return self.game.view(fps, self.window.size, self.scale, is_drawn=settings.world == SEEN)

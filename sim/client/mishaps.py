@@ -109,9 +109,9 @@ class Mishaps:
         clock.call_at(clock.now() + in_s, lambda: self._happen(kind))
 
     def maybe(self, rate: float, within_s: float, kinds: tuple[Kind, ...] = DRAWN) -> bool:
-        """With probability ``rate``, plan one of these kinds for a moment of the next ``within_s``; whether it did.
+        """With probability ``rate``, plan one of these kinds within the next ``within_s``, and return whether it did.
 
-        Asked once before each action, ``rate`` is a rate per action.
+        If this is called once before each action, ``rate`` is a rate per action.
         """
         if self._rng.random() >= rate:
             return False

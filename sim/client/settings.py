@@ -21,14 +21,14 @@ class ClientSettings:
     """What a virtual client is like. Two clients of the same settings, used alike, behave the same to the bit.
 
     ``size`` is in framebuffer pixels, ``scale`` the GUI scale asked for (0 is auto, None that of ``options``).
-    ``world`` is the kind of world behind the text, of ``scenery.WORLDS``, bright or dark, or ``scenery.SEEN``: what
+    ``world`` is the kind of world behind the text, of ``painter.WORLDS``, bright or dark, or ``painter.SEEN``: what
     the player sees. ``shown_fps`` are the frames a second that the debug screen names; None for ``fps``. ``font``
     is the project's own if it is None. Latencies are from and to, in seconds: until an event reaches the game, and
     the age of a picture. ``feet``, ``yaw`` and ``pitch`` are where the player starts, and restarts after a death:
     looking at the ground, as a calibration asks for. ``debug_entries`` are what the debug screen shows from 1.21.9
     on: as our tutorial asks, which is the game's default and the block looked at. ``slipperiness`` is the floor's,
     ``speed`` an effect's factor on every push. With ``swaps_sides``, A goes right and D left. ``layout`` is the
-    keyboard's, of ``layouts.LAYOUTS``. ``words`` are the menus' texts in another language, by their English. With a
+    keyboard's, of ``keyboard.LAYOUTS``. ``words`` are the menus' texts in another language, by their English. With a
     ``world_folder`` the world is written into it whenever it is left, and read from it when it is entered.
     """
 
@@ -60,7 +60,7 @@ class ClientSettings:
 
 
 def gui_scale(size: Size, wanted: int) -> int:
-    """The GUI scale that a window of that size gets: the one asked for, or the largest below it that fits.
+    """Return the GUI scale that a window of that size gets: the one asked for, or the largest below it that fits.
 
     0 asks for the largest that fits (FACTS: The F3 debug screen).
     """
@@ -69,7 +69,7 @@ def gui_scale(size: Size, wanted: int) -> int:
 
 
 def scales(size: Size, wanted: int, wanted_debug: int, edition: Edition) -> Scales:
-    """The scales of a window of that size; ``wanted_debug`` is ``debugGuiScale`` (FACTS: The F3 debug screen).
+    """Return the scales of a window of that size; ``wanted_debug`` is ``debugGuiScale`` (FACTS: The F3 debug screen).
 
     From 26.3 on that is 0 for half of the largest that fits, or a scale; it counts where it is below the GUI scale.
     """

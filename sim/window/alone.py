@@ -24,7 +24,7 @@ def alone_on_this_desktop() -> Iterator[None]:
 
 
 def _lock_file() -> Path:
-    """The lock file of this user's rehearsals on this desktop: one at a time holds it."""
+    """Return the lock file of this user's rehearsals on this desktop: one at a time holds it."""
     user = "" if sys.platform == "win32" else f"-{os.getuid()}"  # Windows has a temporary folder for each
     display = os.environ.get("DISPLAY", "") if sys.platform.startswith("linux") else ""
     server = re.sub(r"[^A-Za-z0-9]+", "-", re.sub(r"\.[0-9]+$", "", display))  # a server's screens are one desktop

@@ -30,7 +30,7 @@ class FramePacer:
 
 
 _JUMP = 4.0
-"""Blocks that nobody walks in a tick: a teleport, which is seen at once."""
+"""A move by more blocks than this in a tick is a teleport, which is seen at once."""
 
 
 class SmoothEye:
@@ -42,7 +42,7 @@ class SmoothEye:
         self._before = self._now = game.realm.eye()
 
     def at(self, now: float) -> Eye:
-        """The eye at a time of the client's clock, in seconds; times never go back."""
+        """Return the eye at a time of the client's clock, in seconds; times never go back."""
         game = self._game
         if game.ticks != self._ticks:
             self._ticks, self._since = game.ticks, now

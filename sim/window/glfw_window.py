@@ -19,7 +19,7 @@ import glfw
 OPENGL = (3, 3)
 
 SPIN_S = 0.002 if sys.platform == "win32" else 0.0005
-"""The end of a wait, in seconds, in which events are asked for again and again: a wait may last that much too long."""
+"""The last seconds of a wait, in which events are polled all the time: a wait may last that much too long."""
 
 USUAL_RATE = 60.0
 """Frames a second on a monitor that doesn't say its rate, as a virtual one."""
@@ -102,7 +102,7 @@ class GlfwWindow:
     # The desktop's clipboard.
 
     def read(self) -> str:
-        """The clipboard's text; empty where it holds none."""
+        """Return the clipboard's text; empty where it holds none."""
         try:
             text: Any = glfw.get_clipboard_string(self.handle) or b""  # bytes, whatever its type says
             return str(text, "utf-8", "replace")
@@ -115,12 +115,12 @@ class GlfwWindow:
 
 
 def now() -> float:
-    """The real time in seconds, on a scale that never goes back."""
+    """Return the real time in seconds, on a scale that never goes back."""
     return time.perf_counter()
 
 
 def refresh_rate() -> float:
-    """The main monitor's frames a second."""
+    """Return the main monitor's frames a second."""
     monitor = glfw.get_primary_monitor()
     mode = glfw.get_video_mode(monitor) if monitor else None
     return float(mode.refresh_rate) if mode and mode.refresh_rate else USUAL_RATE
@@ -128,7 +128,7 @@ def refresh_rate() -> float:
 
 @contextmanager
 def open_glfw_window(title: str, size: tuple[int, int]) -> Iterator[GlfwWindow]:
-    """A window with an OpenGL context, current in this thread; it is closed after the block.
+    """Open a window with an OpenGL context, current in this thread; it is closed after the block.
 
     Frames are shown at once: whoever draws decides when. DesktopError without a display, or without OpenGL 3.3.
     """
@@ -167,5 +167,5 @@ def _created(title: str, size: tuple[int, int]) -> Any:
 
 
 def _words(error: Exception) -> str:
-    """GLFW's own words, which come as bytes behind a number."""
+    """Return GLFW's own words, which come as bytes behind a number."""
     return re.sub(r"^\(\d+\) b?['\"](.*)['\"]$", r"\1", str(error))

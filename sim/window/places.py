@@ -40,10 +40,10 @@ PLACES: dict[int, str] = (
 
 
 def symbol_at(place: str, made: str | None, *, has_shift: bool) -> str:
-    """The key that LWJGL 2 takes the one at a place for, to 1.12 (FACTS: Input and windows); "" for none.
+    """Return the key that LWJGL 2 takes, to 1.12, for the one at a place (FACTS: Input and windows); "" for none.
 
-    ``made`` is what it makes without Shift, as GLFW says. GLFW doesn't say what Shift makes; on no layout that is known
-    here is it anything but a digit that the game has a use for, and that where the key makes none without it.
+    ``made`` is the character of the key without Shift, as GLFW says. GLFW doesn't say the character with Shift. On the
+    layouts known here the game uses only digits among those, on keys that make no digit without Shift.
     """
     if len(place) > 1:
         return place

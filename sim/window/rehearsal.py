@@ -23,7 +23,7 @@ from sim.window.window_picture import WindowPicture
 
 @dataclass(frozen=True)
 class Rehearsal:
-    """What is rehearsed.
+    """The settings of a rehearsal.
 
     ``settings`` is the client's; its frames and latencies are the window's own. ``fps`` is None for the monitor's rate.
     Keys reach the game, and pictures the window, ``lag_s`` seconds later. ``truth`` is the file for tests, if any.
@@ -57,7 +57,7 @@ def rehearse(rehearsal: Rehearsal, on_open: Callable[[], None]) -> None:
 def _run(
     window: GlfwWindow, picture: WindowPicture, client: VirtualClient, fps: float, truth: TruthFile | None
 ) -> None:
-    """The game's loop: wait for the frame and take events meanwhile, run the ticks that are due, draw."""
+    """Run the game's loop: wait for the frame and take events meanwhile, run the ticks that are due, draw."""
     events = InputEvents(window, client)
     pacer = FramePacer(client.clock, fps, now())
     title = ""

@@ -13,7 +13,7 @@ TILE = 16
 
 
 def triangles(rects: Sequence[Rect], size: tuple[int, int]) -> NDArray[np.float32]:
-    """The corners (n, 2) of triangles that cover the rectangles' tiles, in a window of ``size`` pixels.
+    """Return the corners (n, 2) of triangles that cover the rectangles' tiles, in a window of ``size`` pixels.
 
     Rectangles are in pixels from the upper left corner; corners are OpenGL's, from -1 to 1, y upwards.
     """
@@ -29,7 +29,7 @@ def triangles(rects: Sequence[Rect], size: tuple[int, int]) -> NDArray[np.float3
 
 
 def _row_corners(row: int, tiles: list[bool]) -> Iterator[tuple[int, int]]:
-    """Two triangles for each run of covered tiles in a row, in tiles."""
+    """Yield two triangles for each run of covered tiles in a row, in tiles."""
     at = 0
     for is_covered, run in groupby(tiles):
         end = at + len(list(run))

@@ -33,14 +33,14 @@ class TruthFile:
             unfinished.write_text(json.dumps(truth), encoding="utf-8")
 
     def _listed(self, built: Mapping[Block, str]) -> list[list[int | str]]:
-        """Each block's x, y, z and name, in order; the same list again for the same mapping."""
+        """Return each block's x, y, z and name, in order; the same list again for the same mapping."""
         if built is not self._seen:
             self._seen, self._built = built, [[*block, name] for block, name in sorted(built.items())]
         return self._built
 
 
 def truth_of(client: VirtualClient) -> dict[str, Any]:
-    """What the file holds, but for ``built``."""
+    """Return what the file holds, but for ``built``."""
     player = client.realm.player
     stack = player.hotbar[player.slot]
     return {

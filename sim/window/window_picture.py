@@ -137,7 +137,7 @@ class WindowPicture:
         self._overlay = self._new_overlay()
 
     def has_changed(self) -> bool:
-        """Take what this frame shows from the client; whether it differs from the last one."""
+        """Take what this frame shows from the client; return whether it differs from the last one."""
         client = self._client
         view = client.display.seen()
         eye, target = None, None

@@ -99,7 +99,7 @@ class WorldScene:
         self._cubes = cubes(*self._built)
 
     def draw(self, realm: Realm, eye: Eye, size: tuple[int, int], target: Block | None) -> None:
-        """The world as seen from ``eye``, in a window of ``size`` pixels; ``target`` is outlined."""
+        """Draw the world as seen from ``eye``, in a window of ``size`` pixels; ``target`` is outlined."""
         world, player = realm.world, realm.player
         origin = block_of(eye.position)
         x, y, z = (part - own for part, own in zip(eye.position, origin, strict=True))
@@ -123,7 +123,7 @@ class WorldScene:
             self._context.disable(moderngl.CULL_FACE)
 
     def _cubes_of(self, built: Mapping[Block, str], origin: Block) -> Float32s:
-        """What ``cubes`` makes of it, made anew only for another mapping or origin."""
+        """Return what ``cubes`` makes of it, made anew only for another mapping or origin."""
         if built is not self._built[0] or origin != self._built[1]:
             self._built, self._cubes = (built, origin), cubes(built, origin)
         return self._cubes

@@ -26,27 +26,27 @@ SPANISH = {
 
 
 def font_file_in(folder: Path) -> Path:
-    """The virtual clients' own font as a font picture."""
+    """Return the virtual clients' own font as a font picture."""
     file = folder / "ascii.png"
     file.write_bytes(cv2.imencode(".png", drawn_atlas())[1].tobytes())
     return file
 
 
 def profile_in(folder: Path) -> Profile:
-    """A profile that can read virtual clients."""
+    """Return a profile that can read virtual clients."""
     return Profile(screen=ScreenTable(font=str(font_file_in(folder))))
 
 
 def context_over(
     client: VirtualClient, ask: Callable[[str], bool] = lambda _: True, say: Callable[[str], None] = lambda _: None
 ) -> CalibrationContext:
-    """A context whose person says yes by default."""
+    """Return a context whose person says yes by default."""
     controller = InputController(client.devices, Profile().input)
     return CalibrationContext(GameConnection(client.devices, controller), say, ask)
 
 
 def context_of(client: VirtualClient, ask: Callable[[str], bool] = lambda _: True) -> OpenContext:
-    """Opens that context; every key is released at the end."""
+    """Open that context; every key is released at the end."""
 
     @contextmanager
     def opened(_: Profile) -> Iterator[CalibrationContext]:
@@ -58,6 +58,6 @@ def context_of(client: VirtualClient, ask: Callable[[str], bool] = lambda _: Tru
 
 
 def started(client: VirtualClient) -> VirtualClient:
-    """The client once its first pictures are there."""
+    """Return the client once its first pictures are there."""
     client.clock.sleep(0.3)
     return client

@@ -38,7 +38,7 @@ def profile_of(client: VirtualClient, font: Path) -> Profile:
     return Profile(game=version, arena=arena_of(client), screen=ScreenTable(font=str(font)))
 
 
-def test_its_actions_are_the_eight_and_fill_the_design_by_the_rules() -> None:
+def test_the_acceptance_tests_actions_are_the_eight_and_fill_the_design_by_the_rules() -> None:
     assert sorted(ACTIONS) == list(Action)
     cell, placed = SCENARIO.start, set[Cell]()
     for action in ACTIONS:

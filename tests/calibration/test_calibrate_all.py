@@ -103,7 +103,7 @@ def client() -> VirtualClient:
 
 @pytest.fixture
 def profile(tmp_path: Path) -> Path:
-    """A profile that was there before."""
+    """Return a profile that was there before."""
     path = tmp_path / "mine.toml"
     save_profile(Profile(screen=ScreenTable(font=str(write_font(tmp_path)))), path)
     return path
@@ -240,7 +240,7 @@ def test_ended_after_the_arena_was_built_it_says_how_to_undo_that_and_can(last: 
     assert list(tmp_path.glob("new*")) == []
 
 
-def test_a_window_made_another_size_midway_is_one_line(client: VirtualClient, profile: Path) -> None:
+def test_a_window_resized_midway_is_a_one_line_error(client: VirtualClient, profile: Path) -> None:
     def resized(context: CalibrationContext, profile: Profile) -> StepResult:
         client.resize((1280, 720))
         return swapped(context, profile)
@@ -388,7 +388,7 @@ class Room:
 
 
 def sets(**tables: object) -> StepFunction:
-    """A step that takes a second and finds these tables."""
+    """Make a step that takes a second and finds these tables."""
 
     def run(context: CalibrationContext, profile: Profile) -> StepResult:
         context.devices.clock.sleep_until(context.devices.clock.now() + 1)
@@ -398,7 +398,7 @@ def sets(**tables: object) -> StepFunction:
 
 
 def fails(error: BaseException) -> StepFunction:
-    """A step that fails after half a second, a key still down."""
+    """Make a step that fails after half a second, a key still down."""
 
     def run(context: CalibrationContext, _profile: Profile) -> StepResult:
         context.controller.confirm_screen("world")
@@ -448,7 +448,7 @@ def test_a_needed_step_that_fails_ends_the_run_and_names_itself(error: McNestedE
 
 
 @pytest.mark.parametrize("error", [LiveError("no such button"), UserError("no such button")])
-def test_a_step_that_nothing_stands_on_is_skipped_and_the_world_found_again(error: McNestedError) -> None:
+def test_a_failed_optional_step_is_skipped_and_the_world_found_again(error: McNestedError) -> None:
     room = Room()
     result = room.run(
         CalibrationStep("game", sets(game=OLD)),

@@ -8,7 +8,7 @@ from sim.client.client import VirtualClient
 from tests.calibration.contexts import started
 
 
-def test_after_a_yes_the_game_is_waited_for() -> None:
+def test_after_answering_yes_the_game_is_waited_for() -> None:
     client, said = started(VirtualClient()), list[str]()
 
     def yes(_question: str) -> bool:
@@ -22,7 +22,7 @@ def test_after_a_yes_the_game_is_waited_for() -> None:
 
 
 @pytest.mark.parametrize(("answer", "is_in_front"), [(False, False), (False, True), (True, True)])
-def test_after_a_no_or_with_the_game_in_front_nothing_is_waited_for(answer: bool, is_in_front: bool) -> None:
+def test_answering_no_or_having_the_game_in_front_needs_no_wait(answer: bool, is_in_front: bool) -> None:
     client, said = started(VirtualClient()), list[str]()
     client.set_front(is_in_front=is_in_front)
     before = client.clock.now()

@@ -194,6 +194,6 @@ def test_ctrl_c_at_any_moment_puts_the_clipboard_back_and_lets_go(profile: Profi
     assert client.window.down == set()
 
 
-def test_the_profile_is_not_written(profile: Profile, tmp_path: Path) -> None:
+def test_the_cross_check_writes_no_profile(profile: Profile, tmp_path: Path) -> None:
     cross_check(context_over(started(VirtualClient())), profile)
     assert list(tmp_path.iterdir()) == []

@@ -33,7 +33,7 @@ from mc_nested.live.profile.tables import CalibratedTable, Profile, ScreenTable
 
 @pytest.fixture
 def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """The profile folder with ``laptop``, which has every file there can be, and ``laptop-old``, which has two."""
+    """Return the profile folder with ``laptop``, which has every possible file, and ``laptop-old``, which has two."""
     monkeypatch.setattr(platformdirs, "user_config_path", lambda *_args, **_kwargs: tmp_path)
     folder = profile_folder()
     for name in ("laptop", "laptop-old"):
@@ -73,14 +73,14 @@ def test_a_profile_is_known_by_its_name(folder: Path) -> None:
             named_profile(name)
 
 
-def test_without_any_it_says_so(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_without_any_profile_the_error_says_so(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(platformdirs, "user_config_path", lambda *_args, **_kwargs: tmp_path)
     assert named_profiles() == []
     with pytest.raises(ProfileError, match="known are: none yet"):
         named_profile("default")
 
 
-def test_all_its_files_take_the_new_name(folder: Path) -> None:
+def test_all_files_of_a_renamed_profile_take_the_new_name(folder: Path) -> None:
     before = names(folder)
     rename_profile(folder / "laptop.toml", "pc")
     own = {path.name for path in files_of(folder / "laptop-old.toml")}
@@ -89,12 +89,12 @@ def test_all_its_files_take_the_new_name(folder: Path) -> None:
 
 
 @pytest.mark.parametrize("name", ["", " ", ".", "..", "a/b", "pc.toml", "/pc"])
-def test_a_name_is_no_path(folder: Path, name: str) -> None:
+def test_a_new_name_that_is_a_path_is_refused(folder: Path, name: str) -> None:
     with pytest.raises(ProfileError, match="is no profile's name"):
         rename_profile(folder / "laptop.toml", name)
 
 
-def test_a_name_of_which_anything_is_left_is_refused(folder: Path) -> None:
+def test_a_new_name_with_files_left_over_is_refused(folder: Path) -> None:
     (folder / "pc-calibration").mkdir()
     before = names(folder)
     with pytest.raises(ProfileError, match="pc-calibration: exists already: choose another name"):
@@ -128,7 +128,7 @@ def test_a_profile_is_deleted_with_all_its_files_and_no_other_ones(folder: Path,
     assert (tmp_path / "mine" / "letter.txt").exists()
 
 
-def test_what_can_not_be_deleted_is_one_line_and_the_profile_stays(
+def test_a_file_that_can_not_be_deleted_is_a_one_line_error_and_the_profile_stays(
     folder: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     def refuses(path: Path) -> None:
@@ -140,7 +140,7 @@ def test_what_can_not_be_deleted_is_one_line_and_the_profile_stays(
     assert (folder / "laptop.toml").exists()
 
 
-def test_whether_it_knows_of_an_arenas_copy(folder: Path) -> None:
+def test_only_a_profile_or_note_with_a_copy_holds_a_copy(folder: Path) -> None:
     old = folder / "laptop-old.toml"
     assert holds_a_copy(folder / "laptop.toml"), "there is a note beside it"
     assert not holds_a_copy(old)
@@ -162,7 +162,7 @@ def facts(tmp_path: Path, profile: Profile, window: Fingerprint | None = None) -
     return facts_of(tmp_path / "laptop.toml", lambda title: window if title == profile.window.title else None)
 
 
-def test_it_says_what_it_was_calibrated_on_and_that_it_fits_that(tmp_path: Path) -> None:
+def test_a_profile_says_what_it_was_calibrated_on_and_that_it_fits_that(tmp_path: Path) -> None:
     profile = Profile(arena=ARENA, calibrated=CALIBRATED)
     assert facts(tmp_path, profile, Fingerprint("Minecraft 1.20.1", (854, 480))) == ProfileFacts(
         name="laptop",
@@ -193,7 +193,7 @@ def test_what_does_not_fit_or_is_not_known_is_said(
     assert why in (found.why or "")
 
 
-def test_one_that_was_marked_by_hand_fits_nothing_known(tmp_path: Path) -> None:
+def test_a_profile_marked_by_hand_has_no_known_game_to_fit(tmp_path: Path) -> None:
     found = facts(tmp_path, Profile(arena=ARENA), Fingerprint("Minecraft 1.20.1", (854, 480)))
     assert found.fits is None
     assert found.why == "it was never calibrated as a whole: mc-nested calibrate all --profile laptop"
@@ -210,7 +210,7 @@ def test_a_font_that_is_gone_is_said_without_any_window(tmp_path: Path) -> None:
     assert facts(tmp_path, profile).fits is None
 
 
-def test_a_damaged_one_says_why_in_a_line(tmp_path: Path) -> None:
+def test_a_damaged_profile_says_why_in_one_line(tmp_path: Path) -> None:
     (tmp_path / "torn.toml").write_text("[keys]\nforward = 3\n")
     found = facts_of(tmp_path / "torn.toml", lambda _: None)
     assert found.is_damaged

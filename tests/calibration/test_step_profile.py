@@ -27,7 +27,7 @@ def test_a_profile_that_is_there_is_read_and_else_a_new_one_is_begun(tmp_path: P
     assert starting_profile(str(file)) == (file, SWAPPED)
 
 
-def test_a_folder_or_a_file_in_the_way_is_one_line(tmp_path: Path) -> None:
+def test_a_folder_or_a_file_in_the_way_is_a_one_line_error(tmp_path: Path) -> None:
     (tmp_path / "dir.toml").mkdir()
     with pytest.raises(ProfileError, match="is a folder"):
         check_writable(tmp_path / "dir.toml")
@@ -58,7 +58,7 @@ def test_without_its_picture_a_point_is_not_written(tmp_path: Path) -> None:
     assert not file.exists()
 
 
-def test_a_picture_that_is_no_picture_is_one_line(tmp_path: Path) -> None:
+def test_an_empty_picture_is_a_one_line_error(tmp_path: Path) -> None:
     with pytest.raises(ProfileError, match="can't be written"):
         write_picture(np.zeros((0, 0, 3), np.uint8), tmp_path / "empty.png")
     assert list(tmp_path.iterdir()) == []

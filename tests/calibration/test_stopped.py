@@ -32,7 +32,7 @@ LENGTHS = {"font": 2.3, "clicks": 6.5}
 
 @pytest.fixture
 def file(tmp_path: Path) -> Path:
-    """An old profile with a comment in it."""
+    """Return an old profile with a comment in it."""
     path = tmp_path / "mine.toml"
     save_profile(profile_in(tmp_path), path)
     path.write_text("# by hand\n" + path.read_text("utf-8"), "utf-8")
@@ -62,7 +62,7 @@ def client_for(step: str, seed: int = 0, *, pauses_unfocused: bool = True) -> Vi
 
 
 @pytest.mark.parametrize(("step", "after_s"), CASES)
-def test_ctrl_c_at_every_stage(step: str, after_s: float, file: Path) -> None:
+def test_ctrl_c_at_any_stage_leaves_everything_as_it_was(step: str, after_s: float, file: Path) -> None:
     client, before = client_for(step), file.read_bytes()
 
     def interrupt() -> None:
@@ -75,7 +75,9 @@ def test_ctrl_c_at_every_stage(step: str, after_s: float, file: Path) -> None:
 
 
 @pytest.mark.parametrize(("step", "after_s"), CASES[::2])
-def test_another_program_that_comes_to_the_front_and_stays_there(step: str, after_s: float, file: Path) -> None:
+def test_a_program_that_stays_in_front_ends_the_step_and_leaves_everything_as_it_was(
+    step: str, after_s: float, file: Path
+) -> None:
     client, before = client_for(step, pauses_unfocused=False), file.read_bytes()
     client.clock.call_at(client.clock.now() + after_s, lambda: client.set_front(is_in_front=False))
     with pytest.raises(NotInFrontError) as raised:
@@ -85,7 +87,9 @@ def test_another_program_that_comes_to_the_front_and_stays_there(step: str, afte
 
 
 @pytest.mark.parametrize(("step", "after_s"), CASES[::2])
-def test_a_window_that_closes(step: str, after_s: float, file: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_window_that_closes_ends_the_step_and_leaves_everything_as_it_was(
+    step: str, after_s: float, file: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     client, before = client_for(step), file.read_bytes()
     closes_at, grab = client.clock.now() + after_s, client.display.grab
 
@@ -101,7 +105,7 @@ def test_a_window_that_closes(step: str, after_s: float, file: Path, monkeypatch
 
 
 @pytest.mark.parametrize("after_s", moments("clicks", 5))
-def test_a_window_that_gets_another_size(after_s: float, file: Path) -> None:
+def test_a_window_that_is_resized_ends_the_step_and_leaves_everything_as_it_was(after_s: float, file: Path) -> None:
     client, before = client_for("clicks"), file.read_bytes()
     client.clock.call_at(client.clock.now() + after_s, lambda: client.resize((1024, 768)))
     with pytest.raises(LiveError, match="changed its size"):
@@ -110,7 +114,9 @@ def test_a_window_that_gets_another_size(after_s: float, file: Path) -> None:
 
 
 @pytest.mark.parametrize("after_s", moments("clicks", 3))
-def test_a_window_that_is_covered(after_s: float, file: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_window_that_stays_black_ends_the_step_and_leaves_everything_as_it_was(
+    after_s: float, file: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     monkeypatch.setattr(recovery, "PATIENCE_S", 8.0)
     client, before = client_for("clicks"), file.read_bytes()
     client.clock.call_at(client.clock.now() + after_s, lambda: client.blacken(1000.0))

@@ -31,7 +31,7 @@ def context_on(
 
 
 def profile_of(client: VirtualClient, folder: Path) -> Profile:
-    """A profile that knows nothing but the client's version and its font, which is written into the folder."""
+    """Return a profile that knows nothing but the client's version and its font, which is written into the folder."""
     file = folder / "ascii.png"
     cv2.imwrite(str(file), drawn_atlas())
     return Profile(game=GameVersion(version=client.settings.version), screen=ScreenTable(font=str(file)))

@@ -39,12 +39,12 @@ class Step:
 
 
 def pages() -> list[str]:
-    """README and every page of docs/, from the project's root."""
+    """Return README and every page of docs/, from the project's root."""
     return ["README.md", *sorted(path.relative_to(ROOT).as_posix() for path in (ROOT / "docs").rglob("*.md"))]
 
 
 def steps_of(page: str, text: str | None = None) -> list[Step]:
-    """A page's steps, in its order; ``text`` in place of what the file holds."""
+    """Return a page's steps, in its order; ``text`` in place of what the file holds."""
     whole = (ROOT / page).read_text("utf-8") if text is None else text
     steps: list[Step] = []
     behind_commands = -1
@@ -68,7 +68,7 @@ def steps_of(page: str, text: str | None = None) -> list[Step]:
 
 
 def inline_commands(page: str) -> list[Step]:
-    """The commands in a page's text and tables."""
+    """Return the commands in a page's text and tables."""
     whole = (ROOT / page).read_text("utf-8")
     without_blocks = FENCE.sub(lambda fence: "\n" * fence[0].count("\n"), whole)
     return [

@@ -28,7 +28,7 @@ IN_A_WINDOW_S = 600.0
 """A program that calibrates in a window, and then plays there, takes two minutes where nothing else runs."""
 
 STRICT = ("-W", "error", "-W", "ignore:invalid escape sequence")
-"""A warning is an error, but for moviepy's own, once, where an old pip has left it uncompiled."""
+"""Every warning is an error. The exception is moviepy's own, which comes once if an old pip has left it uncompiled."""
 
 
 class Reader:
@@ -104,7 +104,7 @@ class Reader:
         return self._shell.run(step, [sys.executable, *words], ROOT)
 
     def _run_in_a_window(self, step: Step, words: list[str]) -> str:
-        """A program that plays in a real window, or draws one; what it draws goes into the reader's folder."""
+        """Run a program that plays in a real window, or draws one; what it draws goes into the reader's folder."""
         command = [sys.executable, str(ROOT / words[0]), *words[1:]]
         if not step.text.startswith(MEASURES):
             return self._shell.run(step, command, limit_s=IN_A_WINDOW_S)
@@ -120,7 +120,7 @@ class Reader:
         return self._shell.run(step, [sys.executable, *STRICT, "-c", step.text])
 
     def _run_demo(self, step: Step) -> str:
-        """README's first command, in a clone whose environment is installed already: this one."""
+        """Run README's first command, in a clone whose environment is installed already: this one."""
         clone = self._shell.home / "clone"
         for folder in ("scripts", ".venv/bin"):
             (clone / folder).mkdir(parents=True)
@@ -149,7 +149,7 @@ class Reader:
         return self._shell.run(step, [*shlex.split(step.text), "--site-dir", self._shell.home / "site"], ROOT)
 
     def _find_tests(self, step: Step) -> str:
-        """The suite runs these tests, by its markers: they must be there."""
+        """Check that the suite has tests with these markers."""
         words = shlex.split(step.text)[1:]
         options = dict(pairwise(words))
         files = [ROOT / word for word in words if word.endswith(".py")]
@@ -160,7 +160,7 @@ class Reader:
 
 
 def what_is_wrong(figures: Any) -> list[str]:
-    """The names of a benchmark's figures, at any depth, that say that something was wrong or failed."""
+    """Return the names of a benchmark's figures, at any depth, that say that something was wrong or failed."""
     if isinstance(figures, list):
         return [name for each in figures for name in what_is_wrong(each)]
     if not isinstance(figures, dict):
@@ -170,7 +170,7 @@ def what_is_wrong(figures: Any) -> list[str]:
 
 
 def not_shown(shown: str, printed: str) -> str | None:
-    """The first line that isn't among those printed behind the one before; None if all are. Any blanks are alike."""
+    """Return the first line not printed behind the one before it; None if all are. Any blanks are alike."""
     lines = iter(" ".join(line.split()) for line in printed.splitlines())
     for expected in (" ".join(line.split()) for line in shown.splitlines() if line.strip()):
         form = re.compile(".*".join(re.escape(part) for part in expected.split("…")))

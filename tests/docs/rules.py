@@ -39,7 +39,7 @@ SIZES = {
     "python scripts/draw.py film": "film.gif --scenario line",
     "python scripts/draw.py view": ". --seconds 15",
 }
-"""What is appended to a command that begins so and takes long: its smallest sizes. The longest beginning counts."""
+"""The smallest sizes, which are appended to a slow command that begins so. The longest beginning that fits counts."""
 
 AS_THEY_ARE = ("mc-nested study benchmark --corpus",)
 """Commands that begin like a long one, and are short."""
@@ -60,7 +60,7 @@ BY_THE_SUITE = {
     "python scripts/test.py": "it runs this test",
     "mc-nested train --preset model-based --scenario square": "tests/cli/test_train_large_designs.py",
 }
-"""What takes minutes, and what the suite does without it: which test."""
+"""Commands that take minutes, and the test with which the suite covers each instead."""
 
 IN_A_WINDOW = tuple(f"python scripts/{words}" for words in ("bench.py rehearsal", "draw.py film", "draw.py view"))
 """Programs that open a rehearsal window on a display of their own."""
@@ -93,7 +93,7 @@ BEFORE = {
         ("mc-nested train --builders 2 --episodes 20 --out runs/two",),
     ),
 }
-"""What comes before a command that stands in a text."""
+"""What must be done before a command that stands in a text."""
 
 _OF_NO_MATTER = re.compile(r"--(?:trials|episodes|designs|seed) \d+|--out|runs/\w+")
 
@@ -104,11 +104,11 @@ LIVE = ("calibrate", "doctor", "read", "recordings", "replay")
 """Verbs that look at the game's window, or at what was written there."""
 
 LIVE_SNIPPET = 'backend="live"'
-"""What a program has in it that plays in the game's window."""
+"""Words by which a program is known that plays in the game's window."""
 
 
 def as_run(command: str) -> str:
-    """The command with its smallest sizes, where it takes long, and its ellipsis filled in."""
+    """Return the command with its smallest sizes, where it takes long, and its ellipsis filled in."""
     for ellipsis, meant in STANDS_FOR.items():
         command = command.replace(ellipsis, meant)
     if command.startswith(AS_THEY_ARE) or "--resume" in command:
@@ -118,11 +118,11 @@ def as_run(command: str) -> str:
 
 
 def what_it_does(command: str) -> frozenset[str]:
-    """A command's words without its sizes, its seed and its run's folder: two that have the same do the same."""
+    """Return a command's words without its sizes, its seed and its run's folder: two that have the same do the same."""
     return frozenset(_OF_NO_MATTER.sub("", as_run(command)).split())
 
 
 def is_live(command: str) -> bool:
-    """Whether it plays in, or looks at, the game's window."""
+    """Return whether it plays in, or looks at, the game's window."""
     words = shlex.split(command)
     return "--backend live" in command or (words[0] == "mc-nested" and words[1] in LIVE)

@@ -54,7 +54,7 @@ class Shell:
         limit_s: float = LONGEST_S,
         may_end_with: Sequence[int] = (0,),
     ) -> str:
-        """What a program prints, whose user says yes to everything; StepError if it fails, or takes too long."""
+        """Return what a program prints, whose user says yes to everything; StepError if it fails, or takes too long."""
         try:
             done = subprocess.run(
                 [str(word) for word in command],
@@ -75,7 +75,7 @@ class Shell:
 
 
 def _start_game_once(home: Path) -> None:
-    """What a launcher leaves in a home: a game's options and its jar, here with the project's own font."""
+    """Leave in the home what a launcher leaves: a game's options and its jar, here with the project's own font."""
     game, font = home / ".minecraft", home / ".local" / "share" / "mc-nested" / "rehearsal-font.png"
     jar = game / "versions" / VERSION / f"{VERSION}.jar"
     for folder in (jar.parent, font.parent):

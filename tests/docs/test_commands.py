@@ -83,14 +83,14 @@ def test_a_page_can_be_followed(page: str, tmp_path: Path) -> None:
 
 
 def of_figures() -> list[Step]:
-    """The commands in texts and tables that stand in no block: those of figures, and mentions."""
+    """Return the commands in texts and tables that stand in no block: those of figures, and mentions."""
     in_blocks = {what_it_does(step.text) for page in pages() for step in steps_of(page) if step.kind == "command"}
     inline = {what_it_does(step.text): step for page in pages() for step in inline_commands(page)}
     return [step for does, step in inline.items() if does not in in_blocks]
 
 
 def mark_of(step: Step) -> pytest.MarkDecorator:
-    """What a command needs."""
+    """Return what a command needs."""
     return pytest.mark.window if step.text.startswith(IN_A_WINDOW) else pytest.mark.slow
 
 

@@ -54,7 +54,7 @@ class PageReader(HTMLParser):
 
 @pytest.fixture(scope="module")
 def site(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """The site as scripts/test.py builds it."""
+    """Return the site as scripts/test.py builds it."""
     folder = tmp_path_factory.mktemp("site")
     check = ALL["documentation"]
     program, *words = check.command
@@ -129,7 +129,7 @@ def test_every_option_of_every_verb_is_in_the_reference(site: Path) -> None:
 
 
 def verbs_below(words: str, command: Any) -> Iterator[tuple[str, TyperCommand | TyperGroup]]:
-    """A verb's words and its command, and those of the verbs below it."""
+    """Yield a verb's words and its command, and those of the verbs below it."""
     yield words, command
     for name, below in getattr(command, "commands", {}).items():
         if not below.hidden:

@@ -85,7 +85,7 @@ def answered(command: Callable[[Typed], None], words: Typed) -> dict[str, object
 
 
 def install(client: VirtualClient) -> None:
-    """From here on, this process's desktop is the client's. Nothing that opens one may be imported before."""
+    """Make this process's desktop the client's from here on. Nothing that opens one may be imported before."""
 
     @contextmanager
     def open_desktop(title: str) -> Iterator[Devices]:  # noqa: ARG001 - one window is all there is

@@ -28,7 +28,7 @@ class VirtualDesktop:
         self._process: subprocess.Popen[str] | None = None
 
     def ask(self, step: Step, request: Mapping[str, Any]) -> str:
-        """What a command prints there; StepError if it fails, or takes too long."""
+        """Return what a command prints there; StepError if it fails, or takes too long."""
         process = self._process = self._process or self._begin()
         if process.stdin is None or process.stdout is None:
             raise AssertionError("it was begun with pipes")

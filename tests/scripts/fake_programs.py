@@ -11,4 +11,4 @@ def write_program(folder: Path, name: str, code: str = "") -> None:
 
 
 def silent(_line: str) -> None:
-    """Progress that nobody reads."""
+    """Say nothing: progress that nobody reads."""

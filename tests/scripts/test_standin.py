@@ -21,26 +21,26 @@ from tests.standin_fixture import Standin
 for_linux = pytest.mark.skipif(sys.platform != "linux", reason="the stand-in is for Linux")
 
 
-def test_nothing_started_is_down(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_the_status_is_down_before_anything_is_started(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert script.main(["status"], tmp_path) == 1
     line, state = capsys.readouterr().out.splitlines()
     assert line == "the stand-in is down"
     assert json.loads(state) == {"ready": False}
 
 
-def test_down_twice_is_fine(tmp_path: Path) -> None:
+def test_down_may_be_run_twice(tmp_path: Path) -> None:
     assert script.main(["down"], tmp_path) == 0
     assert script.main(["down"], tmp_path) == 0
 
 
 @pytest.mark.parametrize("arguments", [[], ["sideways"], ["up", "down"]])
-def test_other_words_are_refused(arguments: list[str], tmp_path: Path) -> None:
+def test_unknown_arguments_are_refused(arguments: list[str], tmp_path: Path) -> None:
     with pytest.raises(SystemExit) as refusal:
         script.main(arguments, tmp_path)
     assert refusal.value.code == 2
 
 
-def test_another_system_is_refused_in_one_line_that_says_what_to_do(
+def test_another_operating_system_is_refused_in_one_line_that_says_what_to_do(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.setattr(sys, "platform", "win32")
@@ -60,7 +60,7 @@ def test_without_the_programs_one_line_says_how_to_get_them(
 
 
 def keeper(code: str) -> tuple[str, ...]:
-    """A program in the keeper's place, which has its lock."""
+    """Put a program in the keeper's place, which has its lock."""
     begin = "import json, os, sys, time; from pathlib import Path; from mc_nested.file_lock import file_lock\n"
     begin += "from scripts.standin_game import KEEPER, STATE\ncache = Path(sys.argv[1])\n"
     return (sys.executable, "-c", f"{begin}with file_lock(cache / KEEPER):\n{textwrap.indent(code, '    ')}")
@@ -83,7 +83,7 @@ server.serve_forever()
 
 @pytest.fixture
 def kept(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Iterator[Callable[[str], Path]]:
-    """Puts a program in the keeper's place; returns the cache."""
+    """Put a program in the keeper's place, and return the cache."""
     monkeypatch.setattr(script, "fetch_all", lambda *_: None)
 
     def keeps(code: str) -> Path:
@@ -95,7 +95,9 @@ def kept(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Iterator[Callable[[
 
 
 @for_linux
-def test_it_is_up_until_it_is_taken_down(kept: Callable[[str], Path], capsys: pytest.CaptureFixture[str]) -> None:
+def test_the_stand_in_is_up_until_it_is_taken_down(
+    kept: Callable[[str], Path], capsys: pytest.CaptureFixture[str]
+) -> None:
     cache = kept(ANSWERS)
     assert script.main(["up"], cache) == 0
     state = json.loads(capsys.readouterr().out)
@@ -110,13 +112,13 @@ def test_it_is_up_until_it_is_taken_down(kept: Callable[[str], Path], capsys: py
 
 
 @for_linux
-def test_one_that_does_not_come_up_says_why_and_is_down(kept: Callable[[str], Path]) -> None:
+def test_a_stand_in_that_does_not_come_up_says_why_and_is_down(kept: Callable[[str], Path]) -> None:
     assert script.main(["up"], kept("sys.exit(3)")) == 3
     assert script.main(["status"], kept("")) == 1
 
 
 @for_linux
-def test_one_whose_world_does_not_answer_is_half_up_and_is_started_anew(
+def test_a_stand_in_whose_world_does_not_answer_is_half_up_and_is_started_anew(
     kept: Callable[[str], Path], capsys: pytest.CaptureFixture[str]
 ) -> None:
     cache = kept('(cache / STATE).write_text(\'{"ready": true, "oracle": "http://127.0.0.1:1"}\'); time.sleep(60)')

@@ -21,7 +21,7 @@ FILES = {"package/public/index.js": b"js", "package/public/a/b.png": b"png", "pa
 
 
 def write_pack(path: Path, files: dict[str, bytes]) -> Pack:
-    """An archive as npm packs it, and the Pack that pins it."""
+    """Write an archive as npm packs it, and return the Pack that pins it."""
     with tarfile.open(path, "w:gz") as archive:
         for name, content in files.items():
             member = tarfile.TarInfo(name)

@@ -33,7 +33,7 @@ def test_a_commit_needs_nothing_that_all_does_not_have() -> None:
     assert set(COMMIT) < set(ALL)
 
 
-def test_it_says_how_long_each_check_takes_and_what_is_fetched() -> None:
+def test_the_announcement_says_how_long_each_check_takes_and_what_is_fetched() -> None:
     checks = {
         "quick": SuiteCheck(["a"], 0.5),
         "beside": SuiteCheck(["b"], 10, is_beside=True),
@@ -45,7 +45,7 @@ def test_it_says_how_long_each_check_takes_and_what_is_fetched() -> None:
     assert any("1.8 GB for Wine" in line for line in said)
 
 
-def test_a_failure_ends_nothing_and_stands_in_the_table(capfd: pytest.CaptureFixture[str]) -> None:
+def test_the_checks_go_on_after_a_failure_which_the_table_shows(capfd: pytest.CaptureFixture[str]) -> None:
     checks = {
         "first": script("import sys; sys.exit(3)"),
         "beside": script("print('from beside')", is_beside=True),

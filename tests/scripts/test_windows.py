@@ -18,10 +18,10 @@ ELSEWHERE = {
     "mc_nested/cli/training_end.py": "its test is of a Linux shell's quotes",
     "sim/window/glfw_window.py": "tests/windows/test_live_path.py plays in it",
 }
-"""Modules that ask, without tests of their own there."""
+"""Modules that ask the system for something, and have no tests of their own there."""
 
 
-def test_another_system_is_one_line_and_exit_code_2(
+def test_another_operating_system_is_a_one_line_error_and_exit_code_2(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.setattr("sys.platform", "darwin")
@@ -33,7 +33,7 @@ def test_another_system_is_one_line_and_exit_code_2(
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="Linux without apt")
-def test_without_apt_it_is_one_line_that_names_the_packages(
+def test_without_apt_a_one_line_error_names_the_packages(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.setenv("PATH", os.fspath(tmp_path))
@@ -50,7 +50,7 @@ def windows_program(name: str) -> Program:
 
 
 def place_of_tests(module: Path) -> Path:
-    """Where a module's tests are: their tree is that of the modules, without the package's own name."""
+    """Return where a module's tests are: their tree is that of the modules, without the package's own name."""
     parts = module.parts[1:] if module.parts[0] == "mc_nested" else module.parts
     return Path("tests", *parts[:-1], f"test_{module.name}")
 

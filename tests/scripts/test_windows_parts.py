@@ -40,7 +40,7 @@ def test_every_package_is_pinned_by_the_version_of_the_constraints_and_its_whole
 
 
 def write_source(folder: Path, content: bytes = b"VALUE = 1\n") -> str:
-    """A source archive of a package named thing; its hash."""
+    """Write a source archive of a package named thing, and return its hash."""
     folder.mkdir()
     archive = folder / "thing-1.0.tar.gz"
     files = {"setup.py": b"raise SystemExit('run')\n", "PKG-INFO": b"Name: thing\n", "thing/__init__.py": content}

@@ -21,7 +21,7 @@ def test_all_that_it_printed_has_come_at_its_end_though_the_pipe_stays_open(tmp_
         assert program.printed().endswith("xend\n")
 
 
-def test_one_that_takes_too_long_is_an_error_with_its_last_words_and_is_ended(tmp_path: Path) -> None:
+def test_a_program_that_takes_too_long_is_ended_and_its_last_words_are_in_the_error(tmp_path: Path) -> None:
     with printing([sys.executable, "-c", STAYS], cwd=tmp_path, env=os.environ) as program:
         with pytest.raises(SessionError, match="took more than 1 s; it said last: here"):
             program.wait(1)

@@ -1,4 +1,4 @@
-"""The simulator in arrays: it is R ArenaEnvs over GridGame, to the last flag; masks, materials and snapshots."""
+"""The simulator in arrays: it does the same as R ArenaEnvs over GridGame; masks, materials and snapshots."""
 
 import dataclasses
 from typing import Any
@@ -69,7 +69,7 @@ def test_arrays_and_single_arenas_agree_on_everything_with_parts(scenario: Scena
 
 
 def corners(size: int) -> Scenario:
-    """An arena of that size with a block in both far corners, and one at the near edge's row."""
+    """Return an arena of that size with a block in both far corners, and one at the near edge's row."""
     cells = frozenset({(0, size - 1), (size - 1, size - 1), (size // 2, 1)})
     return Scenario(f"corners of {size}", cells, (size // 2, size // 2), 4 * size, LINE.materials, size)
 
@@ -181,7 +181,7 @@ def test_the_last_block_on_the_last_step_terminates_and_does_not_truncate() -> N
 
 
 def refused(envs: GridVectorEnv, actions: Any) -> str:
-    """What is said of these actions, which change nothing."""
+    """Return what is said of these actions, which change nothing."""
     before = envs.snapshot()
     with pytest.raises(ValueError, match="actions: ") as caught:
         envs.step(actions)

@@ -71,7 +71,7 @@ def test_trials_and_seeds_draw_latencies_of_their_own() -> None:
     assert len(set(times)) == 3
 
 
-def test_it_is_named_in_words() -> None:
+def test_the_virtual_backend_is_named_in_words() -> None:
     assert where_words(Backend.VIRTUAL) == "on the virtual client"
 
 

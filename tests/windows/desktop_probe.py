@@ -30,7 +30,7 @@ _user32 = ctypes.WinDLL("user32")
 
 
 def place_report(window: DrivenWindow, devices: Devices) -> dict[str, Any]:
-    """The window as the project sees it, and as GLFW does; and the programs of the windows that have a title."""
+    """Return the window as the project sees it, and as GLFW does; and the programs of the windows that have a title."""
     from mc_nested.live.desktop.win32 import titled_windows
 
     return {
@@ -43,7 +43,7 @@ def place_report(window: DrivenWindow, devices: Devices) -> dict[str, Any]:
 
 
 def grab_report(_: DrivenWindow, devices: Devices) -> dict[str, Any]:
-    """How many colours each half of the picture has, and of a region across both; and the colours."""
+    """Return how many colours each half of the picture has, and of a region across both; and the colours."""
     width, _ = devices.display.size()
     whole = devices.display.grab()
     middle = devices.display.grab(Region(width // 2 - 10, 10, 20, 30))
@@ -54,7 +54,7 @@ def grab_report(_: DrivenWindow, devices: Devices) -> dict[str, Any]:
 
 
 def hold_report(window: DrivenWindow, devices: Devices) -> list[dict[str, Any]]:
-    """For each of ten holds: the events, and the seconds between sending the press and the release."""
+    """Return, for each of ten holds, the events, and the seconds between sending the press and the release."""
     found = []
     for _hold in range(10):
         pressed = devices.clock.now()
@@ -68,7 +68,7 @@ def hold_report(window: DrivenWindow, devices: Devices) -> list[dict[str, Any]]:
 
 
 def sneak_report(window: DrivenWindow, devices: Devices) -> list[list[int]]:
-    """The events while Shift is held around two steps."""
+    """Return the events while Shift is held around two steps."""
     devices.keyboard.press("left.shift")
     for _step in range(2):
         devices.clock.sleep_until(devices.clock.now() + HOLD_S)
@@ -81,7 +81,7 @@ def sneak_report(window: DrivenWindow, devices: Devices) -> list[list[int]]:
 
 
 def pointer_report(window: DrivenWindow, devices: Devices) -> dict[str, Any]:
-    """Where GLFW sees the cursor that was moved to some points, and the buttons that it sees."""
+    """Return where GLFW sees the cursor that was moved to some points, and the buttons that it sees."""
     points = ((0, 0), (100, 50), (160, 120), (319, 239))
     seen = []
     for point in points:
@@ -105,7 +105,7 @@ def clipboard_report(_: DrivenWindow, devices: Devices) -> dict[str, Any]:
 
 
 def corner_report(_: DrivenWindow, __: Devices) -> list[list[str]]:
-    """What the panic switch says for each corner that the mouse is pushed into, as a hand pushes it."""
+    """Return what the panic switch says for each corner that the mouse is pushed into, as a hand pushes it."""
     width, height = _user32.GetSystemMetrics(0), _user32.GetSystemMetrics(1)
     found = []
     for x, y, right, down in (
@@ -127,7 +127,7 @@ def corner_report(_: DrivenWindow, __: Devices) -> list[list[str]]:
 
 
 def edge_report(window: DrivenWindow, devices: Devices) -> dict[str, str]:
-    """What is said of a window that is partly off the screen."""
+    """Return what is said of a window that is partly off the screen."""
     window.ask("move", _user32.GetSystemMetrics(0) - 100, 100)
     end = time.monotonic() + PATIENCE_S
     problem = ""

@@ -42,13 +42,13 @@ VIRTUAL_KEYS = {
 
 
 def virtual_keys(windows: Session) -> list[str]:
-    """A title of 1.12 and the program of a window that notes virtual keys, as the probe takes them."""
+    """Return a title of 1.12 and the program of a window that notes virtual keys, as the probe takes them."""
     window = windows_path(TESTS / "windows" / "virtual_key_window.py")
     return ["Minecraft 1.12.2", windows_path(windows.cache / "python" / "python.exe"), window]
 
 
 def sdl_3(windows: Session) -> list[str]:
-    """A title of 26.3 and the program of a window of Windows' SDL 3."""
+    """Return a title of 26.3 and the program of a window of Windows' SDL 3."""
     window = windows_path(TESTS / "live" / "desktop" / "real_windows" / "sdl3_window.py")
     library = windows_path(found_or_skipped(lambda: fetch_sdl(SDL_3_4_WINDOWS, print)))
     return ["Minecraft 26.3 - Singleplayer", windows_path(windows.cache / "python" / "python.exe"), window, library]
@@ -76,7 +76,10 @@ def test_a_command_reaches_the_window_to_the_letter(windows: Session) -> None:
 
 @pytest.fixture(params=["fr", "de", "ru"])
 def other_layout(request: pytest.FixtureRequest, windows: Session) -> Iterator[None]:
-    """Another keyboard layout, which Wine's programs take from the screen as they start; not a variant, as Dvorak's."""
+    """Set another keyboard layout, which Wine's programs take from the screen as they start.
+
+    It is not a variant, as Dvorak's is.
+    """
     set_layout(request.param, windows.env)
     yield
     set_layout("us", windows.env)

@@ -48,13 +48,13 @@ class Rehearsal:
         return self.folder / "profile.toml"
 
     def arena(self) -> Arena:
-        """The arena of the profile; its font's path is a Windows one, which means nothing here."""
+        """Return the arena of the profile; its font's path is a Windows one, which means nothing here."""
         profile = tomlkit.parse(self.profile.read_text(encoding="utf-8"))
         profile["screen"].pop("font")
         return parse_profile(tomlkit.dumps(profile), str(self.profile)).marked_arena()
 
     def command(self, *arguments: str | Path, timeout_s: float) -> tuple[int, str]:
-        """The exit code and the words of ``mc-nested``; files are named as Windows names them."""
+        """Return the exit code and the words of ``mc-nested``; files are named as Windows names them."""
         words = [windows_path(word) if isinstance(word, Path) else word for word in arguments]
         return self.windows.python("-m", "mc_nested.cli", *words, timeout_s=timeout_s)
 
@@ -73,7 +73,7 @@ def rehearsal(windows: Session, tmp_path_factory: pytest.TempPathFactory) -> Ite
 
 @pytest.fixture(scope="module")
 def calibrated(rehearsal: Rehearsal) -> Rehearsal:
-    """The rehearsal with its profile, made from nothing without a hand."""
+    """Return the rehearsal with its profile, made from nothing without a hand."""
     words = ("calibrate", "all", "--yes", "--profile", rehearsal.profile, "--font", rehearsal.folder / "font.png")
     code, said = rehearsal.command(*words, timeout_s=CALIBRATION_S)
     assert code == 0, said

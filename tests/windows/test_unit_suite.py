@@ -13,7 +13,7 @@ pytestmark = pytest.mark.wine
 
 TIMEOUT_S = 900
 FEWEST = 1250
-"""Tests that must have passed: fewer, and something was not collected."""
+"""At least so many tests must have passed: if fewer have, something was not collected."""
 
 
 class Results:
@@ -27,7 +27,7 @@ class Results:
         ]
 
     def of(self, place: str) -> list[str | None]:
-        """What came of the tests in this file or folder of tests."""
+        """Return what came of the tests in this file or folder of tests."""
         module = place.removesuffix(".py").replace("/", ".")
         return [said for name, said in self.outcomes if name == module or name.startswith(f"{module}.")]
 

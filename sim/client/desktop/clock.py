@@ -1,6 +1,6 @@
 """The virtual clock: time passes only during waits, and events that fall due meanwhile happen at their times.
 
-Frames are such events. All that the game does, it does then: it takes the input that came, and runs the ticks due.
+Frames are such events. The game acts only at its frames: it takes the input that has come, and runs the ticks due.
 """
 
 import heapq
@@ -40,7 +40,7 @@ class VirtualClock:
 
 
 _EXACT = 1e-6
-"""The part of a frame by which a time may miss a frame's own, as sums of floating point numbers do."""
+"""How far a time may be from a frame's own and still count as it, in frames: floating point sums are inexact."""
 
 
 @dataclass(frozen=True)
@@ -54,13 +54,13 @@ class Frames:
     phase_s: float = 0.0
 
     def at_or_after(self, time_s: float) -> float:
-        """The time of the first frame that isn't before ``time_s``."""
+        """Return the time of the first frame that isn't before ``time_s``."""
         if math.isinf(self.fps):
             return time_s
         return self.phase_s + math.ceil((time_s - self.phase_s) * self.fps - _EXACT) / self.fps
 
     def at_or_before(self, time_s: float) -> float:
-        """The time of the last frame that isn't after ``time_s``."""
+        """Return the time of the last frame that isn't after ``time_s``."""
         if math.isinf(self.fps):
             return time_s
         return self.phase_s + math.floor((time_s - self.phase_s) * self.fps + _EXACT) / self.fps

@@ -60,7 +60,7 @@ class VirtualDisplay:
         return self._window.is_in_front
 
     def area(self) -> DesktopArea:
-        """All of its desktop, whose only monitor it fills."""
+        """Return the area of the whole desktop, which its only monitor fills."""
         return DesktopArea(0, 0, *self.size())
 
     def grab(self, region: Region | None = None) -> Frame:
@@ -71,7 +71,7 @@ class VirtualDisplay:
         return frame
 
     def seen(self) -> View:
-        """What the desktop shows now, of what the game drew."""
+        """Return what the desktop shows now of what the game drew."""
         now, (least, most) = self._clock.now(), self._latency_s
         seen = now - least - (most - least) * float(self._rng.random())
         if now < self._frozen_until:
@@ -86,11 +86,11 @@ class VirtualDisplay:
         return self._shown_at
 
     def is_black(self) -> bool:
-        """Whether the desktop shows a black picture now."""
+        """Return whether the desktop shows a black picture now."""
         return self._clock.now() < self._black_until
 
     def show(self, view: View) -> None:
-        """The game draws this view from now on."""
+        """Draw this view from now on."""
         if view != self._views[-1][1]:
             self._views.append((self._clock.now(), view))
         while len(self._views) > 1 and self._views[1][0] < self._shown_at:

@@ -1,6 +1,6 @@
 """The virtual keyboard: keys at their places, which make what a layout has there (X11's layouts, xkb-data 2.35).
 
-To 1.12 that is also the key that the game takes each for (FACTS: Input and windows).
+To 1.12 the game, too, knows a key by what the layout has at its place (FACTS: Input and windows).
 """
 
 from functools import partial
@@ -79,25 +79,25 @@ _ROWS = {
 """What each place makes, in the order of _PLACES: without Shift, and with it. A dot is an accent, or isn't ASCII's."""
 
 _LWJGL_2 = CHARACTERS - {"\\"} | set("@:^_")
-"""Its keys, by their characters, as it finds them on X11."""
+"""LWJGL 2's keys, by their characters, as it finds them on X11."""
 
 LAYOUTS = tuple(_ROWS)
 """The layouts, by their names on X11."""
 
 
 def characters_of(layout: str) -> Layout:
-    """What each place types without Shift and with it."""
+    """Return what each place types without Shift and with it."""
     plain, shifted = _ROWS[layout]
     return {place: (plain[at], shifted[at]) for at, place in enumerate(_PLACES)}
 
 
 def taken_by_lwjgl(characters: Layout) -> Layout:
-    """The keys that LWJGL 2 takes the places for that type these characters; "" for none."""
+    """Return, by place, the keys that LWJGL 2 takes the places for that type these characters; "" for none."""
     return {place: (key_of(plain), key_of(shifted)) for place, (plain, shifted) in characters.items()}
 
 
 def key_of(character: str) -> str:
-    """The key that LWJGL 2 has for a character; "" for none."""
+    """Return the key that LWJGL 2 has for a character; "" for none."""
     key = character.lower()
     return key if key in _LWJGL_2 else ""
 
@@ -114,7 +114,7 @@ class VirtualKeySender:
     Args:
         window: which gets them while it is in front.
         controls: what they do in the game.
-        layout: the layout's name, of ``layouts.LAYOUTS``.
+        layout: the layout's name, of ``LAYOUTS``.
         is_lwjgl_2: whether the game takes a key by what it makes, as to 1.12, and not by its place.
     """
 
@@ -146,7 +146,7 @@ class VirtualKeySender:
         return self._lwjgl
 
     def _taken_for(self, place: str, *, has_shift: bool) -> str:
-        """The key that the game takes the one at a place for, going down or up; "" for none."""
+        """Return the key that the game takes for the one at a place, when that goes down or up; "" for none."""
         if not self._is_lwjgl_2 or place not in self._lwjgl:
             return place
         plain, shifted = self._lwjgl[place]

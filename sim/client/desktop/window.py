@@ -106,7 +106,7 @@ class VirtualWindow:
 
 
 class VirtualClipboard:
-    """A text, empty at first."""
+    """The desktop's clipboard: a text, empty at first."""
 
     def __init__(self) -> None:
         self._text = ""

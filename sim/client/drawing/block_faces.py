@@ -17,7 +17,7 @@ from sim.client.game.widgets import Colour
 from sim.client.game.world import AIR
 
 NEAR_FLOOR = 12
-"""Blocks around the eye within which the bare floor shows its blocks' rims: farther ones are finer than a dot."""
+"""Blocks around the eye within which the floor shows its blocks' rims: farther rims are finer than a dot."""
 
 
 @dataclass(frozen=True)
@@ -34,12 +34,12 @@ class Faces:
     colours: NDArray[np.float64]
 
     def chosen(self, which: NDArray[np.bool_]) -> "Faces":
-        """Those that the mask (n,) names."""
+        """Return the faces that the mask (n,) is true for."""
         return Faces(self.blocks[which], self.sides[which], self.corners[which], self.colours[which])
 
 
 def faces_of(built: Mapping[Block, str], floor: int) -> Faces:
-    """The faces of what is built beside which nothing stands; ``floor`` is the height of the bare floor's top."""
+    """Return the faces of what is built that nothing stands beside; ``floor`` is the height of the bare floor's top."""
     found = [
         (block, number, name)
         for block, name in built.items()
@@ -54,7 +54,7 @@ def faces_of(built: Mapping[Block, str], floor: int) -> Faces:
 
 
 def floor_faces(around: Block, built: Mapping[Block, str], floor: int, block: str) -> Faces:
-    """The tops of the bare floor's blocks around a block, with nothing built in them or on them."""
+    """Return the tops of the bare floor's blocks around a block, with nothing built in them or on them."""
     reach = range(-NEAR_FLOOR, NEAR_FLOOR + 1)
     bare = [
         (x, floor - 1, z)
@@ -68,7 +68,7 @@ def floor_faces(around: Block, built: Mapping[Block, str], floor: int, block: st
 
 
 def both(one: Faces, other: Faces) -> Faces:
-    """The faces of two worlds."""
+    """Return the faces of two worlds together."""
     return Faces(
         np.concatenate([one.blocks, other.blocks]),
         np.concatenate([one.sides, other.sides]),
@@ -78,19 +78,19 @@ def both(one: Faces, other: Faces) -> Faces:
 
 
 def cube_faces(colour: Colour) -> Faces:
-    """The six faces of the block between 0 and 1."""
+    """Return the six faces of the block between 0 and 1."""
     return _faces(np.zeros((6, 3), np.int64), np.arange(6), np.tile(np.array(colour, np.float64), (6, 1)))
 
 
 def inside_rims(corners: NDArray[np.float64]) -> NDArray[np.float64]:
-    """The corners (n, 4, ...) of squares without their rims."""
+    """Return the corners (n, 4, ...) of squares without their rims."""
     middle = corners.mean(1, keepdims=True)
     return np.asarray(middle + (corners - middle) * (1 - 2 / DOTS), np.float64)
 
 
 @lru_cache(1)
 def brightness() -> tuple[float, float]:
-    """The grain's mean inside a face's rim, and on it."""
+    """Return the grain's mean inside a face's rim, and on it."""
     dots = grain()[:DOTS, :DOTS]
     inside = float(dots[1:-1, 1:-1].mean())
     return inside, inside * RIM
@@ -103,7 +103,7 @@ def _faces(blocks: NDArray[np.int64], sides: NDArray[np.int64], colours: NDArray
 
 @lru_cache(1)
 def _squares() -> NDArray[np.float64]:
-    """The corners (6, 4, 3) of the faces of the block between 0 and 1, counter-clockwise from outside."""
+    """Return the corners (6, 4, 3) of the faces of the block between 0 and 1, counter-clockwise from outside."""
     squares = np.zeros((6, 4, 3))
     for number, ((one, other, axis), side) in enumerate(FACES):
         squares[number, :, one] = 0, 1, 1, 0

@@ -26,17 +26,17 @@ ROOMY = 480
 """GUI pixels of width from which on two columns have room for any coordinates."""
 
 _WIDE = 620
-"""GUI pixels from which on any two columns, and the boxes of 26.4 in any, lie beside each other.
+"""GUI pixels of width from which on any two columns, and the boxes of 26.4, fit beside each other.
 
-All windows are as wide for 26.4 at its default scale.
+For 26.4 at its default scale all windows are this wide.
 """
 
 _IDS = ("stone", "oak_planks", "oak_log", "grass_block", "dirt", "polished_blackstone_brick_wall", "tnt", "white_wool")
 _LONG = 16
-"""Letters of an id that has no room beside the other column in a narrow window."""
+"""From this many letters on, an id has no room beside the other column in a narrow window."""
 
 _OLD_IDS = ("stone", "planks", "log", "grass", "stone_brick_stairs", "tnt", "wool")
-"""Of 1.12, whose row of the id is that of the Facing line."""
+"""Ids of 1.12, which shows the id in the row of the Facing line."""
 
 _BY_ENTRIES: dict[Layout, tuple[str, ...]] = {
     "1.21.9-26.3": ("1.21.9", "1.21.11", "26.1", "26.2", "26.3"),
@@ -49,7 +49,7 @@ _TAGS = ("minecraft:planks", "minecraft:mineable/axe", "c:villager_job_sites")
 def frames(
     font: Font, seed: int, windows: tuple[tuple[int, int], ...] = WINDOWS, layouts: tuple[Layout, ...] = LAYOUTS
 ) -> Iterator[tuple[F3Screen, Frame]]:
-    """Endless screens and their frames: each layout, GUI scale 1 to 8 and window in turn, over random kinds of worlds.
+    """Yield endless screens and their frames: each layout, GUI scale 1 to 8 and window in turn, over random worlds.
 
     As in the game, a GUI scale that doesn't fit the window becomes the largest that fits (FACTS: The F3 debug screen).
     """
@@ -76,7 +76,7 @@ def random_screen(
     *,
     has_more: bool = True,
 ) -> F3Screen:
-    """A screen with coordinates of one of these reaches, any view, and mostly a target block.
+    """Return a screen with coordinates of one of these reaches, any view, and mostly a target block.
 
     From 1.21.9 on it may have other entries than the tutorial asks for, unless ``has_more`` is false.
     """
@@ -107,7 +107,7 @@ def random_screen(
 
 
 def _chosen(rng: np.random.Generator, layout: Layout, block: Block) -> dict[str, Any]:
-    """From 1.21.9 on, a version, and entries that are on with the tutorial's or in their place."""
+    """Return a version and entries, random ones, for a layout from 1.21.9 on; nothing for an older layout."""
     if layout not in BY_ENTRIES:
         return {}
     version = str(rng.choice(_BY_ENTRIES[layout]))
@@ -125,7 +125,7 @@ def _chosen(rng: np.random.Generator, layout: Layout, block: Block) -> dict[str,
 
 
 def expected(screen: F3Screen) -> Reading:
-    """What a perfect reader reads: the numbers as shown."""
+    """Return what a perfect reader reads: the numbers as shown."""
     x, y, z = screen.xyz
     height = round(y, 3 if screen.layout == "standin" else 5)
     return Reading((round(x, 3), height, round(z, 3)), round(screen.yaw, 1), round(screen.pitch, 1), screen.target)

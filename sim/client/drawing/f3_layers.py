@@ -37,7 +37,7 @@ class F3Boxes:
         self._box = lru_cache(_KEPT_BOXES)(self._drawn)
 
     def of(self, screen: F3Screen) -> list[Layer]:
-        """The layers of one debug screen, from the back to the front."""
+        """Return the layers of one debug screen, from the back to the front."""
         left, right = box_columns(screen, self._rows)
         return [*(self._box(placed, False) for placed in left), *(self._box(placed, True) for placed in right)]
 
@@ -106,7 +106,7 @@ _KEPT = 512
 
 
 def paint(world: Frame, screen: F3Screen, font: Font) -> Frame:
-    """The world (height, width, 3), blue green red, with the debug screen over it. The world itself is not changed.
+    """Return the world (height, width, 3), blue green red, with the debug screen over it; ``world`` is not changed.
 
     Text that doesn't fit is cut at the window's edge, and the right column is drawn over the left one, as in the game.
     """
@@ -130,7 +130,7 @@ class F3Layers:
         self._part = lru_cache(_KEPT)(self._drawn_part)
 
     def of(self, screen: F3Screen) -> list[Layer]:
-        """The layers of one debug screen, from the back to the front."""
+        """Return the layers of one debug screen, from the back to the front."""
         if screen.layout == "26.4":
             return self._boxes.of(screen)
         is_standin = screen.layout == "standin"
@@ -143,7 +143,7 @@ class F3Layers:
         return layers
 
     def _drawn_part(self, part: Part, top: int, is_right: bool, is_standin: bool) -> tuple[list[Layer], int]:
-        """One layer, or none if all lines are empty, and the top of what stands below, in GUI pixels."""
+        """Return one layer, or none if all lines are empty, and the top of what stands below, in GUI pixels."""
         style = _STANDIN if is_standin else _VANILLA
         boxes: list[Layer] = []
         texts: list[Layer] = []

@@ -23,7 +23,7 @@ _OPAQUE = 8
 _AXES: tuple[Colour, ...] = ((255, 0, 0), (0, 255, 0), (127, 127, 255))
 
 _HOTBAR_FRAME = {0: 0, 1: 0x93, 2: 0x5D, 19: 0x7E, 20: 0x5D, 21: 0}
-"""The greys of the hotbar's rows that let nothing through, from its top (FACTS: Screens and their buttons)."""
+"""The greys of the hotbar's opaque rows, by the row from its top (FACTS: Screens and their buttons)."""
 
 _CHOSEN: Colour = (240, 240, 240)
 """The frame around the chosen slot."""
@@ -43,13 +43,13 @@ class HudLayers:
         self._input = lru_cache(16)(self._drawn_input)
 
     def of(self, view: View) -> list[Layer]:
-        """Crosshair and hotbar."""
+        """Return crosshair and hotbar."""
         if not view.hotbar:
             return []
         return [*self._crosshair(view.f3 is not None and view.f3.has_axes), *self._hotbar(view.hotbar, view.slot)]
 
     def chat(self, lines: tuple[ChatLine, ...], typed: TypedLine | None) -> list[Layer]:
-        """The chat's lines, the newest at the bottom, and the line being typed."""
+        """Return the chat's lines, the newest at the bottom, and the line being typed."""
         layers: list[Layer] = []
         row = 0
         for line in lines:
@@ -142,7 +142,7 @@ class NoticeLayers:
         self._letters, self._left = letters, width - WIDTH
 
     def of(self, notices: tuple[str, ...]) -> list[Layer]:
-        """The layers of these texts from the top down; an empty one leaves its place free."""
+        """Return the layers of these texts from the top down; an empty one leaves its place free."""
         layers: list[Layer] = []
         for place, text in enumerate(notices[:MOST]):
             if text:
@@ -179,7 +179,7 @@ class MenuLayers:
         self._inventory = lru_cache(2)(self._drawn_inventory)
 
     def of(self, view: View) -> list[Layer]:
-        """The layers of a view that are in front of all others."""
+        """Return the layers of a view that are in front of all others."""
         if view.menu.name in ("world", "chat"):
             return []
         if view.menu.name == "inventory":

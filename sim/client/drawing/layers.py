@@ -105,7 +105,7 @@ class Group:
 
 
 def intersection(one: Rect, other: Rect) -> Rect | None:
-    """The rectangle that two rectangles share, or None."""
+    """Return the rectangle that two rectangles share, or None."""
     left, top = max(one[0], other[0]), max(one[1], other[1])
     right, bottom = min(one[2], other[2]), min(one[3], other[3])
     return (left, top, right, bottom) if left < right and top < bottom else None
@@ -151,7 +151,7 @@ class LayeredPicture:
         self._background, self._layers = background, layers
 
     def grab(self, region: Region | None = None) -> Frame:
-        """The picture, or a region of it, cut off at the window's edges.
+        """Return the picture, or a region of it, cut off at the window's edges.
 
         It is read-only: where nothing has changed, the same array is returned again.
         """
@@ -190,7 +190,7 @@ class LayeredPicture:
 
 
 def _around(rect: Rect, inside: Rect) -> list[Rect]:
-    """What is left of a rectangle without one inside it."""
+    """Return what is left of a rectangle without one inside it."""
     left, top, right, bottom = rect
     from_left, from_top, to_right, to_bottom = inside
     around = [

@@ -17,10 +17,10 @@ from sim.client.game.widgets import Colour
 _KEPT = 256
 _ROWS = 8
 _DOTS = [bytes(255 * (column >> row & 1) for column in range(256)) for row in range(_ROWS)]
-"""For each row of dots, 255 or 0 by a column's byte."""
+"""For each row of dots: by a column's byte, 255 if that column has a dot in the row, else 0."""
 
 _SHEET = 512
-"""Pixels of which a sheet of one colour is a multiple as wide."""
+"""The width of a sheet of one colour is a multiple of so many pixels."""
 
 
 class Letters:
@@ -35,7 +35,7 @@ class Letters:
         self._dots = lru_cache(_KEPT)(self._drawn)
 
     def width(self, text: str) -> int:
-        """A text's width in the game, in GUI pixels; characters that the font lacks are question marks."""
+        """Return a text's width in the game, in GUI pixels; characters that the font lacks are question marks."""
         return len(self._columns(text))
 
     def text(
@@ -49,7 +49,7 @@ class Letters:
         size: int = 1,
         is_slanted: bool = False,
     ) -> Ink:
-        """A text with its upper left corner at a position in GUI pixels; ``size`` is 2 for a large title.
+        """Return a text with its upper left corner at a position in GUI pixels; ``size`` is 2 for a large title.
 
         A slanted one reaches a GUI pixel beyond that corner, and beyond its right edge.
         """
@@ -90,9 +90,9 @@ def _enlarged(dots: NDArray[np.uint8], step: int) -> NDArray[np.uint8]:
 
 
 def _slanted(dots: NDArray[np.uint8], step: int) -> NDArray[np.uint8]:
-    """Dots at ``step`` pixels each, a dot wider on either side: the top is a dot to the right, the bottom to the left.
+    """Return text as slanted dots, ``step`` pixels each: the top is a dot to the right, the bottom a dot to the left.
 
-    A quarter of a dot a dot, of each pixel's middle (FACTS: The chat's line).
+    It leans by a quarter of a dot for each dot of height, measured at each pixel's middle (FACTS: The chat's line).
     """
     rows, columns = dots.shape
     down, right = np.mgrid[: rows * step, : (columns + 2) * step]
@@ -103,7 +103,7 @@ def _slanted(dots: NDArray[np.uint8], step: int) -> NDArray[np.uint8]:
 
 @lru_cache(32)
 def _sheet(colour: Colour, height: int, width: int) -> NDArray[np.uint8]:
-    """Nothing but that colour: texts without a shadow share it."""
+    """Return a sheet of nothing but that colour, which texts without a shadow share."""
     return np.full((height, width, 3), colour[::-1], np.uint8)
 
 
@@ -111,7 +111,10 @@ _FIELD = 7
 
 
 def drawn_atlas() -> NDArray[np.uint8]:
-    """The font picture (128, 128, 4): 16 x 16 cells of 8 x 8 dots, white, alpha 0 or 255 (FACTS: The bitmap font)."""
+    """Return the font picture (128, 128, 4): 16 x 16 cells of 8 x 8 dots (FACTS: The bitmap font).
+
+    Its dots are white; alpha is 0 or 255.
+    """
     atlas = np.full((128, 128, 4), (255, 255, 255, 0), np.uint8)
     for char, cell in _drawings().items():
         top, left = (index * _ROWS for index in divmod(ord(char), 16))

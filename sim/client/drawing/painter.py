@@ -50,7 +50,7 @@ class ViewLayers:
         self._is_f3_last = edition.since(1, 21, 9)
 
     def of(self, view: View) -> list[Layer]:
-        """The layers of a view; one that didn't change is the same layer again."""
+        """Return the layers of a view; one that didn't change is the same layer again."""
         f3 = self._f3.of(view.f3) if view.f3 and view.menu.name in IN_WORLD else []
         hud, chat = self._hud_and_chat(view)
         over = [*self._menu.of(view), *self._notices(view.notices)]
@@ -71,7 +71,7 @@ SEEN = "seen"
 
 
 def random_world(rng: np.random.Generator, kind: str, width: int, height: int) -> Frame:
-    """A picture (height, width, 3) of one kind of ``WORLDS``, or of ``bright`` or ``dark``."""
+    """Return a picture (height, width, 3) of one kind of ``WORLDS``, or of ``bright`` or ``dark``."""
     if kind in ("bright", "dark"):
         low, high = (200, 256) if kind == "bright" else (0, 30)
         return _blocks(rng.integers(low, high, (-(-height // 16), -(-width // 16), 3), np.uint8), 16, width, height)
@@ -112,7 +112,7 @@ class Painter:
         scales: framebuffer pixels a GUI pixel, of the GUI and of the debug screen.
         font: the font of all texts.
         edition: the game's version.
-        kind: the kind of world behind the text, of ``scenery.WORLDS``, bright, dark or ``scenery.SEEN``.
+        kind: the kind of world behind the text, of ``WORLDS``, bright, dark or ``SEEN``.
         seed: of the random world.
         words: the menus' texts in another language, by their English.
     """
@@ -141,7 +141,7 @@ class Painter:
         self._picture = LayeredPicture(self._dirt)
 
     def grab(self, view: View, region: Region | None = None) -> Frame:
-        """The picture of a view, or a region of it."""
+        """Return the picture of a view, or a region of it."""
         if view is not self._shown:
             self._shown = view
             world = [self._worlds.of(view.sight)] if view.sight else []

@@ -1,7 +1,8 @@
 """The world that the player sees, as the hindmost layer: sky, floor, blocks, the one looked at, the one in the hand.
 
 Only the bands of rows that are asked for are drawn, so that reading lines of text doesn't draw all of it. Blocks are
-drawn the farthest first: a block hides only such as are no nearer along any axis, counted in blocks from the eye's.
+drawn the farthest first. A block can hide another one only if that is no nearer along any axis, counted in blocks from
+the eye's block.
 """
 
 import math
@@ -35,13 +36,13 @@ from sim.client.game.world import block_of
 Points = NDArray[np.float64]
 
 _FRACTION_BITS = 4
-"""Of a corner's place within its pixel."""
+"""Bits for a corner's place within its pixel."""
 
 _BLACK = (0, 0, 0)
 
 BAND = 48
-"""Rows that are drawn at once. OpenCV fills a polygon a little differently where it is cut off: so it is cut off at the
-same rows whatever part of the picture is asked for."""
+"""Rows that are drawn at once. OpenCV fills a polygon a little differently where it is cut off. So it is always cut off
+at the same rows, whatever part of the picture is asked for."""
 
 
 @dataclass(frozen=True)
@@ -96,7 +97,7 @@ class WorldLayer:
             frame[upper:lower, left:right] = self._band(first)[upper - first : lower - first, left:right]
 
     def _band(self, top: int) -> Frame:
-        """The rows from ``top`` on, BAND of them, drawn once."""
+        """Return BAND rows from ``top`` on, each drawn once."""
         if top not in self._bands:
             width, height = self._size
             bottom = min(height, top + BAND)
@@ -149,7 +150,7 @@ class WorldLayers:
         self._floors: dict[Block, Faces] = {}
 
     def of(self, sight: Sight) -> WorldLayer:
-        """The layer that shows it."""
+        """Return the layer that shows it."""
         if self._last is None or sight != self._last[0]:
             self._last = sight, WorldLayer(sight, self._size, self._faces_of(sight))
         return self._last[1]
@@ -166,7 +167,7 @@ class WorldLayers:
 
 
 def _facing(faces: Faces, eye: Eye, origin: Block) -> Faces:
-    """Those within sight whose outer side the eye is on."""
+    """Return the faces within sight whose outer side the eye is on."""
     axes = np.array([axis for (_, _, axis), _ in FACES])[faces.sides]
     outward = np.array([1 if side else -1 for _, side in FACES])[faces.sides]
     plane = faces.corners[np.arange(len(axes)), 0, axes]
@@ -181,7 +182,7 @@ def _in_drawing_order(faces: Faces, origin: Block) -> Faces:
 
 
 def _seen_by(camera: Matrix, faces: Faces, origin: Block) -> _SeenFaces:
-    """The faces as the camera sees them, without those beside the picture or behind it."""
+    """Return the faces as the camera sees them, without those beside the picture or behind it."""
     at = faces.corners - origin
     seen = _through(camera, at)
     may_be_seen = _may_be_seen(seen)
@@ -189,25 +190,25 @@ def _seen_by(camera: Matrix, faces: Faces, origin: Block) -> _SeenFaces:
 
 
 def _through(camera: Matrix, corners: Points) -> Points:
-    """Corners (n, 4, 3) as the camera sees them, (n, 4, 4)."""
+    """Return corners (n, 4, 3) as the camera sees them, (n, 4, 4)."""
     return np.asarray(corners @ camera[:, :3].T.astype(np.float64) + camera[:, 3], np.float64)
 
 
 def _may_be_seen(seen: Points) -> NDArray[np.bool_]:
-    """Which squares (n,) don't lie on the outer side of one side of the picture, nor behind."""
+    """Return which squares (n,) may be seen: those not wholly beyond one side of the picture, nor behind the camera."""
     x, y, ahead = seen[..., 0], seen[..., 1], seen[..., 3]
     sides = (x < -ahead, x > ahead, y < -ahead, y > ahead, ahead < NEAR)
     return np.asarray(~np.any([side.all(-1) for side in sides], axis=0))
 
 
 def _shows_its_front(seen: Points) -> NDArray[np.bool_]:
-    """Which squares (n,), all of them in front, are seen from their outer side: counter-clockwise."""
+    """Return which squares (n,), all in front, are seen from their outer side: their corners run counter-clockwise."""
     x, y = seen[..., 0] / seen[..., 3], seen[..., 1] / seen[..., 3]
     return np.asarray((x * np.roll(y, -1, axis=1) - np.roll(x, -1, axis=1) * y).sum(1) > 0)
 
 
 def _rimmed(faces: _SeenFaces, size: tuple[int, int]) -> _Polygons:
-    """Each face twice: all of it in its rim's brightness, and over it what lies within the rim."""
+    """Return each face twice: all of it in its rim's brightness, and over it what lies within the rim."""
     count = len(faces.corners)
     corners = np.stack([faces.corners, faces.inside], axis=1).reshape(2 * count, 4, 4)
     inside, rim = brightness()
@@ -221,7 +222,7 @@ def _outlined(faces: _SeenFaces, size: tuple[int, int]) -> _Polygons:
 
 
 def _polygons(seen: Points, colours: Sequence[Sequence[int]], size: tuple[int, int]) -> _Polygons:
-    """What of squares (n, 4, 4) lies in front, in pixels."""
+    """Return, in pixels, the parts of squares (n, 4, 4) that lie in front."""
     is_whole: NDArray[np.bool_] = np.all(seen[..., 3] >= NEAR, axis=-1)
     pixels = _pixels(np.where(is_whole[:, np.newaxis, np.newaxis], seen, 1.0), size)
     corners: list[Points] = list(pixels)
@@ -237,7 +238,7 @@ def _pixels(seen: Points, size: tuple[int, int]) -> Points:
 
 
 def _in_front(seen: Points) -> Points:
-    """The part of a polygon (n, 4) that isn't nearer than NEAR."""
+    """Return the part of a polygon (n, 4) that isn't nearer than NEAR."""
     kept = []
     for one, other in zip(seen, np.roll(seen, -1, axis=0), strict=True):
         if one[3] >= NEAR:

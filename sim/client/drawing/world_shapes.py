@@ -36,7 +36,7 @@ _KNOWN: dict[str, Colour] = {
 
 
 def block_colour(block: str) -> Colour:
-    """The mean colour of a block by its name without a namespace; one that isn't known gets one of its own."""
+    """Return the mean colour of a block by its name without a namespace; one that isn't known gets one of its own."""
     if block in _KNOWN:
         return _KNOWN[block]
     shade = zlib.crc32(block.encode())
@@ -56,7 +56,7 @@ FACES = (((0, 1, 2), 1), ((0, 2, 1), 0), ((1, 2, 0), 1), ((2, 1, 0), 0), ((2, 0,
 
 @lru_cache(1)
 def unit_cube() -> Float32s:
-    """The 36 corners of the triangles of a cube between 0 and 1."""
+    """Return the 36 corners of the triangles of a cube between 0 and 1."""
     corners = []
     for (one, other, axis), side in FACES:
         normal = [0.0, 0.0, 0.0]
@@ -70,14 +70,14 @@ def unit_cube() -> Float32s:
 
 @lru_cache(1)
 def floor_square() -> Float32s:
-    """The six corners of a level square that reaches FAR in each direction."""
+    """Return the six corners of a level square that reaches FAR in each direction."""
     corners = ((-1, -1), (1, 1), (1, -1), (-1, -1), (-1, 1), (1, 1))
     return np.array([(FAR * x, 0, FAR * z, 0, 1, 0) for x, z in corners], np.float32)
 
 
 @lru_cache(1)
 def outline() -> Float32s:
-    """The 24 ends of the edges of a cube that is a little larger than a block."""
+    """Return the 24 ends of the edges of a cube that is a little larger than a block."""
     low, high = -_STANDS_OFF, 1 + _STANDS_OFF
     ends = []
     for axis in range(3):
@@ -90,12 +90,12 @@ def outline() -> Float32s:
 
 
 def row_of(position: tuple[float, float, float], colour: Colour) -> Float32s:
-    """The one row that draws a shape at a position in a colour."""
+    """Return the one row that draws a shape at a position in a colour."""
     return np.array([(*position, *(part / 255 for part in colour))], np.float32)
 
 
 def cubes(built: Mapping[Block, str], origin: Block) -> Float32s:
-    """One row for each block that differs from the bare floor, in blocks from ``origin``; those beyond FAR left out.
+    """Return one row for each block within FAR that differs from the bare floor, in blocks from ``origin``.
 
     A missing block of the floor is black.
     """
@@ -115,7 +115,7 @@ RIM = 0.84
 
 
 def grain() -> Float32s:
-    """Brightness from 0 to 1, an array (64, 64): GRAIN_BLOCKS faces in each direction."""
+    """Return a grain of brightness from 0 to 1, an array (64, 64): GRAIN_BLOCKS faces in each direction."""
     side = GRAIN_BLOCKS * DOTS
     dots = np.random.default_rng(0).uniform(0.84, 1.0, (side, side)).astype(np.float32)
     place = np.arange(side) % DOTS
@@ -136,7 +136,7 @@ FOG_FROM = 0.3
 
 
 def light(axis: int, side: int) -> float:
-    """The light on a face across ``axis`` (0 east, 1 up, 2 south), on its high (1) or low side (0)."""
+    """Return the light on a face across ``axis`` (0 east, 1 up, 2 south), on its high (1) or low side (0)."""
     if axis == 1:
         return TOP if side else BOTTOM
     return EAST_AND_WEST if axis == 0 else NORTH_AND_SOUTH
@@ -151,7 +151,7 @@ _HELD_AT, _HELD_SIZE = (0.72, -0.52, -1.0), 0.4
 
 
 def projection(width: int, height: int) -> Matrix:
-    """The perspective of the game's own field of view, from top to bottom."""
+    """Return the perspective of the game's own field of view, from top to bottom."""
     scale = 1 / math.tan(math.radians(FIELD_OF_VIEW_DEG) / 2)
     depth = NEAR - _FAR
     return np.array(
@@ -166,7 +166,7 @@ def projection(width: int, height: int) -> Matrix:
 
 
 def view(eye: tuple[float, float, float], yaw: float, pitch: float) -> Matrix:
-    """From blocks to the camera: x to the right, y up, z backward. ``eye`` is in the same blocks, angles in degrees."""
+    """Return the matrix from blocks to the camera: x right, y up, z back. ``eye`` is in blocks, angles in degrees."""
     ahead = np.array(direction(yaw, pitch))
     turn = math.radians(yaw)
     right = np.array((-math.cos(turn), 0.0, -math.sin(turn)))
@@ -178,7 +178,7 @@ def view(eye: tuple[float, float, float], yaw: float, pitch: float) -> Matrix:
 
 
 def held_block() -> Matrix:
-    """From a block between 0 and 1 to the camera: smaller, turned, and in the lower right."""
+    """Return the matrix from a block between 0 and 1 to the camera: smaller, turned, and in the lower right."""
     turn, tilt = math.radians(40.0), math.radians(12.0)
     turned = np.array(
         [[math.cos(turn), 0, math.sin(turn)], [0, 1, 0], [-math.sin(turn), 0, math.cos(turn)]],

@@ -85,7 +85,7 @@ class VirtualChat:
         self.is_selected = self.is_draft = False
 
     def lines(self, tick: int, ground: int = HALF) -> tuple[ChatLine, ...]:
-        """The lines that show now, the newest first, on that ground; with the chat open, older messages too."""
+        """Return the lines that show now, the newest first, on that ground; with the chat open, older messages too."""
         if self.typed is not None:
             newest = islice(self._messages, 2 * _SHOWN)
             return tuple(ChatLine(message.text, message.colour, _STEPS, ground) for message in newest)

@@ -58,7 +58,7 @@ class Controls:
             self._f3_used = game.screen != "world"
 
     def character(self, text: str) -> None:
-        """A character comes, which a key typed or a program sent; beside Ctrl none counts."""
+        """Take a character, which a key typed or a program sent; together with Ctrl none counts."""
         game = self._game
         if game.keys.physical.intersection(_CONTROL):
             return
@@ -93,7 +93,7 @@ class Controls:
         self._game.keys.forget()
 
     def stay_unfocused(self) -> None:
-        """Pause, where the player set that: the window has been without focus for a while."""
+        """Pause, if the player set that: the window has been without focus for a while."""
         if self.pauses_unfocused and self._game.screen == "world":
             self._game.open("pause")
 
@@ -110,7 +110,7 @@ class Controls:
             game.keys.press(key)
 
     def _combine(self, key: str) -> None:
-        """F3 and another key."""
+        """Do what F3 together with another key does."""
         game = self._game
         player = game.realm.player
         if key == "c" and game.edition.since(1, 13) and not game.is_info_reduced:

@@ -60,7 +60,7 @@ _FREELY = frozenset(
         *("system_specs", "tps"),
     }
 )
-"""What is shown with reduced debug info, too."""
+"""The entries that reduced debug info shows, too."""
 
 _ENTRIES: dict[str, tuple[tuple[int, ...], tuple[int, ...]]] = {
     **dict.fromkeys(
@@ -95,14 +95,14 @@ _ID = re.compile(r"(?:[a-z0-9_.-]*:)?[a-z0-9_./-]+")
 
 
 def known_entries(edition: Edition) -> tuple[str, ...]:
-    """The ids of all entries that a version has, in their order; none before 1.21.9."""
+    """Return the ids of all entries that a version has, in their order; none before 1.21.9."""
     return tuple(entry for entry in sorted(_ENTRIES) if _has(edition, entry))
 
 
 def shown_entries(
     entries: DebugEntries, edition: Edition, *, has_f3: bool, is_reduced: bool = False
 ) -> tuple[str, ...]:
-    """The ids of the entries on the screen, in their order; what the version doesn't know is ignored."""
+    """Return the ids of the entries on the screen, in their order; what the version doesn't know is ignored."""
     shown = ("alwaysOn", "inOverlay") if has_f3 else ("alwaysOn",)
     return tuple(
         entry
@@ -112,7 +112,7 @@ def shown_entries(
 
 
 def parse_profile(text: str | None, edition: Edition) -> DebugEntries:
-    """The entries that a debug-profile.json stands for; None where there is no such file.
+    """Return the entries that a debug-profile.json stands for; ``text`` is None if there is no such file.
 
     As in the game, one that can't be read counts as the default, and ``custom`` replaces everything.
     """
@@ -123,7 +123,10 @@ def parse_profile(text: str | None, edition: Edition) -> DebugEntries:
 
 
 def read_profile(text: str, edition: Edition) -> DebugEntries:
-    """The entries that a debug-profile.json stands for; UserError where the game can't read it, and replaces it."""
+    """Return the entries that a debug-profile.json stands for.
+
+    UserError if the game can't read it, and would replace it.
+    """
     try:
         return _parsed(json.loads(text), edition)
     except (ValueError, TypeError, KeyError, AttributeError, RecursionError) as error:
@@ -135,7 +138,7 @@ def read_profile(text: str, edition: Edition) -> DebugEntries:
 
 
 def names_block(entries: DebugEntries, edition: Edition) -> bool:
-    """Whether the debug screen names the block looked at while it is on."""
+    """Return whether the debug screen names the block looked at while it is on."""
     return bool(_NAMING.intersection(shown_entries(entries, edition, has_f3=True)))
 
 

@@ -27,7 +27,7 @@ Choice = tuple[str, Status]
 
 
 def choices(entries: DebugEntries, edition: Edition, searched: str) -> tuple[Choice, ...]:
-    """The entries in whose ids the searched text stands, as they are listed: what is text first, then by their ids."""
+    """Return the entries whose ids contain the searched text, as they are listed: first texts, then others, by id."""
     found = (entry for entry in known_entries(edition) if searched in entry)
     return tuple(
         (entry, entries.get(entry, "never")) for entry in sorted(found, key=lambda entry: (_is_3d(entry), entry))
@@ -35,7 +35,7 @@ def choices(entries: DebugEntries, edition: Edition, searched: str) -> tuple[Cho
 
 
 def debug_options(shown: tuple[Choice, ...], searched: str, edition: Edition, width: int, height: int) -> Menu:
-    """The screen with those choices; what the list has no room for is left out, until it is searched for."""
+    """Return the screen with those choices. What the list has no room for is left out, until it is searched for."""
     wide, button = (350, 60) if edition.since(1, 21, 11) else (310, 44)
     left, right = width // 2 - wide // 2 + 2, width // 2 + wide // 2 - 2
     labels: dict[Status, str] = {
@@ -91,5 +91,5 @@ def _footer(edition: Edition, width: int, height: int) -> tuple[Widget, ...]:
 
 
 def _is_3d(entry: str) -> bool:
-    """Whether an entry is drawn in the world, and no text."""
+    """Return whether an entry is drawn in the world, and no text."""
     return entry in _RENDERED or entry.startswith(_RENDERED_FROM)

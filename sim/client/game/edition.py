@@ -30,7 +30,7 @@ class Edition:
         return version_numbers(self.version)
 
     def since(self, *numbers: int) -> bool:
-        """Whether this version is that one or a newer one."""
+        """Return whether this version is at least as new as that one."""
         return self._numbers >= numbers
 
     @cached_property
@@ -39,7 +39,7 @@ class Edition:
         return next(layout for first, layout in _LAYOUTS if self.since(*first))
 
     def title(self, *, in_world: bool, state: str = "Singleplayer") -> str:
-        """The window's title; from 1.15 on, in a world, with its state after it (FACTS: Input and windows).
+        """Return the window's title; from 1.15 on, in a world, with its state after it (FACTS: Input and windows).
 
         The state is in the game's language.
         """
@@ -47,9 +47,9 @@ class Edition:
         return f"{name} - {state}" if in_world and self.since(1, 15) else name
 
     def sneaking_height(self) -> tuple[float, float]:
-        """The sneaking player's height and that of their eyes, in blocks (FACTS: Sneaking)."""
+        """Return the sneaking player's height and that of their eyes, in blocks (FACTS: Sneaking)."""
         return (1.5, 1.27) if self.since(1, 14) else (1.65, 1.54)
 
     def shown_id(self, block: str) -> str:
-        """A block's id as the debug screen shows it."""
+        """Return a block's id as the debug screen shows it."""
         return f"minecraft:{block}"

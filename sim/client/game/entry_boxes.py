@@ -63,13 +63,13 @@ _SPAWNS = Kind("Entity Spawn Counts", (255, 68, 68))
 
 
 def first_lines(screen: F3Screen) -> tuple[str, ...]:
-    """The lines with priority: the first stands left, the second right."""
+    """Return the lines with priority: the first stands left, the second right."""
     lines = {"fps": f"{screen.fps} fps T: {screen.fps} (fifo) @60Hz", "game_version": screen.title}
     return tuple(lines[entry] for entry in screen.shown if entry in lines)
 
 
 def boxes(screen: F3Screen) -> list[Box]:
-    """All other boxes that have something in them, in the order in which they are given a column."""
+    """Return all other boxes that have something in them, in the order in which they are given a column."""
     said: dict[str, Box] = {}
     for entry in screen.shown:
         for box in _ENTRIES.get(entry, _nothing)(screen):
@@ -87,7 +87,7 @@ def _nothing(_: F3Screen) -> tuple[Box, ...]:
 
 
 def _fact(name: str, *texts: str) -> Fact:
-    """A fact of values and what stands between them, in turn."""
+    """Return a fact: values, and what stands between them, in turn."""
     pieces = ((text, WHITE if index % 2 == 0 else GLUE) for index, text in enumerate(texts))
     return Fact(name, tuple((text, colour) for text, colour in pieces if text))
 
@@ -219,7 +219,7 @@ _ENTRIES: dict[str, Callable[[F3Screen], tuple[Box, ...]]] = {
 
 
 TOP, PITCH = 2, 9
-"""Where a column begins, and from one line to the next; as much again is below each box."""
+"""Where a column begins, and the distance from a line to the next. The same distance is left free below a box."""
 
 
 class PlacedBox(NamedTuple):
@@ -247,7 +247,7 @@ class _Column:
 
 
 def box_columns(screen: F3Screen, rows: int) -> tuple[list[PlacedBox], list[PlacedBox]]:
-    """The boxes of the left and of the right column, from the top, in a window ``rows`` GUI pixels high."""
+    """Return the boxes of the left and of the right column, from the top, in a window ``rows`` GUI pixels high."""
     left, right = columns = _Column(rows), _Column(rows)
     first = first_lines(screen)
     for column, lines in zip(columns, (first[::2], first[1::2]), strict=True):
@@ -272,7 +272,7 @@ def _fill(column: _Column, waiting: dict[str, Box], titles: Iterable[str]) -> No
 
 
 def stood_after(screen: F3Screen, rows: int) -> Stood:
-    """Where the boxes of a screen stood, for the next frame."""
+    """Return where the boxes of a screen stood, for the next frame."""
     left, right = (
         [one.box.kind.title for one in column if one.box.kind is not FIRST] for column in box_columns(screen, rows)
     )

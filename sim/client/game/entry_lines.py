@@ -25,7 +25,7 @@ class _Said(NamedTuple):
 
 
 def entry_columns(screen: F3Screen) -> tuple[list[Part], list[Part]]:
-    """The left and the right column, from the top, in parts."""
+    """Return the left and the right column, from the top, in parts."""
     said: dict[str, list[Part]] = {_PRIORITY: [], _SINGLE: []}
     for entry in screen.shown:
         write = _ENTRIES.get(entry)
@@ -44,7 +44,7 @@ def entry_columns(screen: F3Screen) -> tuple[list[Part], list[Part]]:
 
 
 def _apart(parts: list[Part]) -> list[Part]:
-    """Lines, if there are any, with an empty row below."""
+    """Return the lines with an empty row below, if there are any lines."""
     return [*parts, _EMPTY] if parts else []
 
 
@@ -73,7 +73,7 @@ def _help(screen: F3Screen) -> Part:
 
 @lru_cache(8)
 def _helping(has_keys: bool, has_light: bool, is_small: bool) -> Part:
-    """The lines about the charts and F3+F6, in a world without a screen over it."""
+    """Return the lines that help with the charts and F3+F6, in a world without a screen over it."""
     fps = "fps + tps" if is_small else "FPS + TPS"
     charts = f"Debug charts: [F3+1] Profiler hidden; [F3+2] {fps} hidden; [F3+3] Ping hidden"
     if not has_keys:

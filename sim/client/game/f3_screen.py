@@ -125,18 +125,18 @@ _FACINGS = (
 
 
 def towards(yaw: float) -> str:
-    """The direction nearest to a yaw in degrees, and its axis in brackets."""
+    """Return the direction nearest to a yaw in degrees, and its axis in brackets."""
     return _FACINGS[floor(yaw / 90 + 0.5) & 3]
 
 
 def chunk_of(block: Block) -> str:
-    """The chunk that a block is in, and its place in the region's file, from 1.19.3 on."""
+    """Return the chunk that a block is in, and its place in the region's file, from 1.19.3 on."""
     x, y, z = block
     return f"{x >> 4} {y >> 4} {z >> 4} [{x >> 4 & 31} {z >> 4 & 31} in r.{x >> 9}.{z >> 9}.mca]"
 
 
 def section_of(block: Block) -> str:
-    """A block's place in its chunk's section, from 1.21.9 on."""
+    """Return a block's place in its chunk's section, from 1.21.9 on."""
     x, y, z = block
     return f"{x & 15:02d} {y & 15:02d} {z & 15:02d}"
 
@@ -145,7 +145,7 @@ _PICKAXE = "minecraft:mineable/pickaxe"
 
 
 def tags_of(block: str, edition: Edition) -> tuple[str, ...]:
-    """A block's tags, without #. The game's order may be another one each time that it starts; here it is fixed."""
+    """Return a block's tags, without #. The game may order them anew each time it starts; here the order is fixed."""
     if not edition.since(1, 13):
         return ()
     tags = _TAGS.get(block, ())

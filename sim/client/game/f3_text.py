@@ -19,17 +19,17 @@ _EMPTY: Part = (TextLine(),)
 
 
 def left_lines(screen: F3Screen) -> list[TextLine]:
-    """The left column, from the top."""
+    """Return the left column, from the top."""
     return list(chain.from_iterable(both_columns(screen)[0]))
 
 
 def right_lines(screen: F3Screen) -> list[TextLine]:
-    """The right column, from the top."""
+    """Return the right column, from the top."""
     return list(chain.from_iterable(both_columns(screen)[1]))
 
 
 def both_columns(screen: F3Screen) -> tuple[list[Part], list[Part]]:
-    """The left and the right column, from the top, in parts."""
+    """Return the left and the right column, from the top, in parts."""
     if screen.layout == "standin":
         return _standin_left(screen), [_plain("Renderer: three.js r128", ""), *_standin_target(screen)]
     if screen.layout == "1.21.9-26.3":
@@ -48,7 +48,7 @@ def both_columns(screen: F3Screen) -> tuple[list[Part], list[Part]]:
 
 
 def _boxed(box: Box) -> Part:
-    """What a box of 26.4 says, its facts as one text each, and the gap below it."""
+    """Return the text of a box of 26.4, each fact as one text, and the gap below it."""
     facts = (f"{fact.name}: {''.join(text for text, _ in fact.value)}" for fact in box.facts)
     title = (box.kind.title,) if box.kind.title else ()
     return _plain(*title, *facts, *box.lines, "")

@@ -25,7 +25,7 @@ REPEAT_TICKS = 4
 """While the right button is held, the game places again every so many ticks (FACTS: Standing, looking, placing)."""
 
 BREAK_TICKS = 5
-"""While the left one is, it breaks another block every so many."""
+"""While the left button is held, the game breaks another block every so many ticks."""
 
 SIGHT = 20.0
 """Blocks within which the debug screen names a block; before 1.13 only within reach (FACTS: The F3 debug screen)."""
@@ -225,9 +225,10 @@ class VirtualGame:
     def view(
         self, fps: int = 60, size: tuple[int, int] = (854, 480), scale: int = 2, *, is_drawn: bool = False
     ) -> View:
-        """What the game shows now; its debug screen names ``fps`` frames a second and a window of that size in pixels.
+        """Return what the game shows now.
 
-        ``scale`` is that of the debug screen. ``is_drawn`` adds the world as the player sees it.
+        Its debug screen names ``fps`` frames a second and a window of ``size`` pixels. ``scale`` is that of
+        the debug screen. ``is_drawn`` adds the world as the player sees it.
         """
         player = self.realm.player
         is_ready = self.screen != "death" or self.ticks - self._since >= DEATH_WAIT
@@ -266,7 +267,7 @@ class VirtualGame:
         return None if chat.typed is None else TypedLine(chat.typed, chat.is_draft, self.options.typed_ground)
 
     def sight(self) -> Sight:
-        """The world as the player sees it now."""
+        """Return the world as the player sees it now."""
         player, world = self.realm.player, self.realm.world
         hit = self.target_block(self.reach())
         stack = player.hotbar[player.slot]
@@ -280,7 +281,7 @@ class VirtualGame:
         )
 
     def target_block(self, reach: float) -> Hit | None:
-        """The block that the player looks at, if it is within ``reach`` blocks."""
+        """Return the block that the player looks at, if it is within ``reach`` blocks."""
         player, world = self.realm.player, self.realm.world
         now = (player.feet, player.yaw, player.pitch, player.is_sneaking, world.revision)
         if self._looked[0] != now:
@@ -289,7 +290,10 @@ class VirtualGame:
         return hit if hit is not None and hit.distance <= reach else None
 
     def target_on_f3(self) -> Hit | None:
-        """The block that the debug screen names, from where the eyes were a tick ago (FACTS: The F3 debug screen)."""
+        """Return the block that the debug screen names.
+
+        It is seen from where the eyes were a tick ago (FACTS: The F3 debug screen).
+        """
         eye, yaw, pitch = self._before
         world, reach = self.realm.world, SIGHT if self.edition.since(1, 13) else self.reach()
         now = (self._before, world.revision)
@@ -299,12 +303,12 @@ class VirtualGame:
         return hit if hit is not None and hit.distance <= reach else None
 
     def _aim(self) -> tuple[physics.Vector, float, float]:
-        """The eyes' position and the view, in blocks and degrees."""
+        """Return the eyes' position and the view, in blocks and degrees."""
         player = self.realm.player
         return self.realm.eye(), player.yaw, player.pitch
 
     def reach(self) -> float:
-        """Blocks from the eye within which blocks can be placed."""
+        """Return how far from the eye blocks can be placed, in blocks."""
         return _REACH[self.realm.player.mode]
 
     def _finish_loading(self) -> None:
@@ -413,7 +417,7 @@ class VirtualGame:
         self._rested_at = (world.revision, before) if player.on_ground and player.feet == before else None
 
     def _stop_at_others(self, before: physics.Vector, height: float) -> None:
-        """Take back what of the step led into another player, and the speed that way."""
+        """Take back the part of the step that led into another player, and the speed along it."""
         player = self.realm.player
         feet = physics.kept_apart(before, player.feet, self.realm.others(), height)
         if feet != player.feet:

@@ -66,7 +66,7 @@ class GameKeys:
         self._presses.clear()
 
     def leave_world(self) -> None:
-        """The same, and end what a button has begun: a screen opens."""
+        """Forget keys as ``forget`` does, and end what a button has begun: a screen opens."""
         self.forget()
         self._held -= _OF_BUTTONS
 
@@ -80,9 +80,9 @@ class GameKeys:
         }
 
     def is_held(self, action: str) -> bool:
-        """Whether the key of that action is down."""
+        """Return whether the key of that action is down."""
         return action in self._held
 
     def presses(self, action: str) -> int:
-        """How often its key was pressed since the last call."""
+        """Return how often its key was pressed since the last call."""
         return self._presses.pop(action, 0) if self._presses else 0

@@ -97,7 +97,7 @@ LINES = {
 
 
 def parse_options(lines: Iterable[str], edition: Edition) -> GameOptions:
-    """The options of these lines, each ``NAME:VALUE``; of two for one name the last counts (FACTS: options.txt).
+    """Return the options of these lines, each ``NAME:VALUE``; of two for one name the last counts (FACTS: options.txt).
 
     UserError for a name that isn't known, or not in this version, and for a value that the option can't have.
     """

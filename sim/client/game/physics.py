@@ -33,7 +33,7 @@ class Ground:
     speed: float = 1.0
 
     def under(self, gait: Gait) -> "Ground":
-        """The ground as a player of that gait feels it: sprinting pushes more."""
+        """Return the ground as a player of that gait feels it: sprinting pushes more."""
         return Ground(self.slipperiness, self.speed * SPRINTING) if gait == "sprint" else self
 
     @property
@@ -57,14 +57,15 @@ HALF_WIDTH = 0.3
 """Half of the player's width (FACTS: Standing, looking, placing)."""
 
 _TOUCH = 1e-7
-"""Blocks that two boxes may overlap and still only touch."""
+"""Two boxes that overlap by no more than so many blocks count as touching."""
 
 _STEP_DOWN, _BACK_OFF = 0.6, 0.05
-"""Blocks that a sneaking player steps down at most, and by which a step is shortened otherwise (FACTS: Sneaking)."""
+"""Blocks that a sneaking player steps down at most. A step that leads deeper is shortened by so many blocks at a time
+(FACTS: Sneaking)."""
 
 
 def displacement(ticks: int, gait: Gait, ground: Ground = STONE) -> float:
-    """Blocks covered by holding forward for so many ticks from rest, then coasting to a stop."""
+    """Return the blocks covered by holding forward for so many ticks from rest, then coasting to a stop."""
     push = INPUT * (SNEAKING if gait == "sneak" else 1.0) * ground.under(gait).acceleration
     covered = velocity = 0.0
     tick = 0
@@ -77,7 +78,7 @@ def displacement(ticks: int, gait: Gait, ground: Ground = STONE) -> float:
 
 
 def wish(forward: int, left: int, gait: Gait, yaw: float) -> tuple[float, float]:
-    """The input of held keys, east and south, of length 1 at most. Each key is 1, 0 or -1, yaw in degrees."""
+    """Return the input of held keys, east and south, of length 1 at most. Each key is 1, 0 or -1, yaw in degrees."""
     strength = INPUT * (SNEAKING if gait == "sneak" else 1.0)
     ahead, aside = forward * strength, left * strength
     length = math.hypot(ahead, aside)
@@ -98,7 +99,7 @@ def step(
     ground: Ground = STONE,
     sneaks: bool = False,
 ) -> tuple[Vector, Vector, bool]:
-    """One tick: the feet and the velocity (blocks, blocks a tick) after it, and whether the player stands on something.
+    """Return the feet, the velocity (blocks, blocks a tick) after one tick, and whether the player stands on something.
 
     ``push`` is what ``wish`` returns; ``height`` is the player's. A player that sneaks on the ground stops at edges.
     """
@@ -124,7 +125,7 @@ def step(
 
 
 def _kept_from_edge(feet: Vector, motion: tuple[float, float], height: float, is_solid: IsSolid) -> tuple[float, float]:
-    """The longest part of a step east and south with ground below: each shortened alone, then both."""
+    """Return the longest part of a step east and south with ground below: each shortened alone, then both."""
     x, y, z = feet
     east, south = motion
 
@@ -145,7 +146,7 @@ def _shortened(motion: float) -> float:
 
 
 def overlaps(feet: Vector, height: float, block: tuple[int, int, int]) -> bool:
-    """Whether a player whose feet are there and a block overlap."""
+    """Return whether a block overlaps a player whose feet are there."""
     return all(
         low + _TOUCH < block[axis] + 1 and high - _TOUCH > block[axis]
         for axis, (low, high) in enumerate(_sides(feet, height))
@@ -153,7 +154,7 @@ def overlaps(feet: Vector, height: float, block: tuple[int, int, int]) -> bool:
 
 
 def is_free(feet: Vector, height: float, is_solid: IsSolid) -> bool:
-    """Whether a player fits there."""
+    """Return whether a player fits there."""
     xs, ys, zs = (_cells(low, high) for low, high in _sides(feet, height))
     return not any(is_solid(x, y, z) for y in ys for x in xs for z in zs)
 
@@ -168,7 +169,7 @@ def _cells(low: float, high: float) -> range:
 
 
 def _stopped(feet: list[float], axis: int, motion: float, height: float, is_solid: IsSolid) -> float:
-    """The feet's coordinate after moving along one axis by ``motion``, or up to the first block in the way."""
+    """Return the feet's coordinate after moving along one axis by ``motion``, or up to the first block in the way."""
     sides = _sides(feet, height)
     front = sides[axis][motion > 0]
     others = [_cells(*sides[other]) for other in range(3) if other != axis]
@@ -184,7 +185,7 @@ def _stopped(feet: list[float], axis: int, motion: float, height: float, is_soli
 
 
 SPRINT_WINDOW = 7
-"""Ticks: the second of two presses of forward that come sooner than this after each other sprints (FACTS: Walking)."""
+"""If forward is pressed twice within fewer ticks than this, the second press sprints (FACTS: Walking)."""
 
 
 class Gaits:
@@ -202,7 +203,7 @@ class Gaits:
         self._window = 0
 
     def tick(self, *, is_forward: bool, sneaks: bool, may_sprint: bool) -> Gait:
-        """The gait of this tick.
+        """Return the gait of this tick.
 
         Args:
             is_forward: whether forward is down, and back isn't.
@@ -229,15 +230,16 @@ WIDTH = 2 * HALF_WIDTH
 
 
 def touches(one: Vector, other: Vector, height: float) -> bool:
-    """Whether players of that height whose feet are there are in each other's way."""
+    """Return whether two players of that height, whose feet are there, are in each other's way."""
     return abs(one[0] - other[0]) < WIDTH and abs(one[2] - other[2]) < WIDTH and abs(one[1] - other[1]) < height
 
 
 def kept_apart(before: Vector, after: Vector, others: Collection[Vector], height: float) -> Vector:
-    """Where a step from ``before`` that blocks would let end at ``after`` ends, with others standing there.
+    """Return where a step from ``before`` ends when other players stand in its way.
 
-    Each way is taken alone: one that leads into another player isn't gone at all. Who is in somebody already, as after
-    a teleport, may go on.
+    ``after`` is where it would end if only blocks were in its way. Each axis is taken alone: a move along one that
+    leads into another player is not made at all. A player who already overlaps somebody, as after a teleport, may
+    move on.
     """
     around = [other for other in others if not touches(before, other, height)]
 

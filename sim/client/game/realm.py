@@ -44,7 +44,7 @@ class Player:
         self.yaw, self.pitch = yaw, min(90.0, max(-90.0, pitch))
 
     def go_to(self, feet: Vector) -> None:
-        """Be at a position at once, standing still."""
+        """Put the player at a position at once, standing still."""
         self.feet, self.velocity = feet, AT_REST
 
     def use_one(self) -> None:
@@ -86,19 +86,19 @@ class Realm:
             self.players.append(self.player)
 
     def others(self) -> list[Vector]:
-        """Where the feet of the other players are."""
+        """Return where the feet of the other players are."""
         return [player.feet for player in self.players if player is not self.player]
 
     def rule(self, older: str, newer: str, default: bool) -> bool:
-        """Whether a rule is on, given its name before 1.21.11 and its name since (FACTS: Commands)."""
+        """Return whether a rule is on, given its name before 1.21.11 and its name since (FACTS: Commands)."""
         return self.rules.get(newer if self.edition.since(1, 21, 11) else older, str(default).lower()) == "true"
 
     def size(self) -> tuple[float, float]:
-        """The player's height and that of the eyes, in blocks."""
+        """Return the player's height and that of the eyes, in blocks."""
         return self.edition.sneaking_height() if self.player.is_sneaking else STANDING
 
     def eye(self) -> Vector:
-        """The position that the player looks from."""
+        """Return the position that the player looks from."""
         x, y, z = self.player.feet
         return x, y + self.size()[1], z
 
@@ -125,7 +125,7 @@ def write_world(realm: Realm, folder: Path) -> None:
 
 
 def read_world(realm: Realm, folder: Path) -> Realm:
-    """The realm in a folder; what isn't saved, such as the version, is taken from ``realm``."""
+    """Return the realm in a folder; what isn't saved, such as the version, is taken from ``realm``."""
     level: dict[str, Any] = json.loads(gzip.decompress((folder / LEVEL).read_bytes()))
     world = VirtualWorld(*level["floor"])
     world.restore({(x, y, z): name for x, y, z, name in level["blocks"]})

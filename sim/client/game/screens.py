@@ -48,7 +48,7 @@ _ICONS = 20, 4
 """An icon's side, and the gap between two."""
 
 _FRIENDS_WIDTH, _FRIENDS_ABOVE = 220, 80
-"""The width of the friends' panel inside its border, and by how much less high than the window it is."""
+"""The width of the friends' panel inside its border, and how much lower than the window it is."""
 
 _BORDER = 8
 _GRID = ((-154, 71), (-75, 71), (4, 71), (83, 71))
@@ -72,13 +72,13 @@ class MenuState(NamedTuple):
 
 
 def menu(state: MenuState, edition: Edition, width: int, height: int) -> Menu:
-    """The menu of a screen; an empty one for the world, the chat and the inventory."""
+    """Return the menu of a screen; an empty one for the world, the chat and the inventory."""
     laid_out = _MENUS.get(state.name)
     return laid_out(state, edition, width, height) if laid_out else Menu()
 
 
 def label_colour(button: Widget, edition: Edition, *, is_hovered: bool) -> Colour:
-    """The colour of a button's label."""
+    """Return the colour of a button's label."""
     if not button.is_active:
         return GREY
     if edition.since(1, 16):
@@ -172,7 +172,7 @@ def _paused(_state: MenuState, edition: Edition, width: int, _height: int) -> Me
 
 
 def _friends(_state: MenuState, _edition: Edition, width: int, height: int) -> Menu:
-    """Two tabs above a panel. A click beside them leads back."""
+    """Return two tabs above a panel. A click beside them leads back."""
     left, high = width // 2 - _FRIENDS_WIDTH // 2, height - _FRIENDS_ABOVE
     top = _FRIENDS_ABOVE // 2
     tabs = tuple(
@@ -190,7 +190,7 @@ def _debug_options(state: MenuState, edition: Edition, width: int, height: int) 
 
 
 def _icons(count: int, width: int, top: int) -> tuple[Widget, ...]:
-    """A row of so many buttons with pictures, in the middle."""
+    """Return a row of so many buttons with pictures, in the middle."""
     side, gap = _ICONS
     left = width // 2 - (count * (side + gap) - gap) // 2
     return tuple(Widget("", left + index * (side + gap), top, side, height=side) for index in range(count))

@@ -62,7 +62,7 @@ class Widget:
     colour: Colour | None = None
 
     def contains(self, x: float, y: float) -> bool:
-        """Whether a position in GUI pixels lies on it."""
+        """Return whether a position in GUI pixels lies on it."""
         return self.left <= x < self.left + self.width and self.top <= y < self.top + self.height
 
     @property

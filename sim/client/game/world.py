@@ -28,16 +28,16 @@ class VirtualWorld:
         """Increases with every change."""
 
     def block_at(self, block: Block) -> str:
-        """The name of the block at a position; ``AIR`` where there is none."""
+        """Return the name of the block at a position; ``AIR`` where there is none."""
         return self._changed.get(block) or self._natural(block)
 
     def is_solid(self, x: int, y: int, z: int) -> bool:
-        """Whether the block there stops players and views."""
+        """Return whether the block there stops players and views."""
         changed = self._changed.get((x, y, z)) if self._changed else None
         return y < self.floor if changed is None else changed != AIR
 
     def put(self, block: Block, name: str) -> bool:
-        """Put a block there, or air; whether that changed anything."""
+        """Put a block there, or air; return whether that changed anything."""
         if self.block_at(block) == name:
             return False
         self.revision += 1
@@ -48,7 +48,7 @@ class VirtualWorld:
         return True
 
     def fill(self, low: Block, high: Block, name: str, *, only_air: bool = False) -> int:
-        """Put a block everywhere between two corners, which are included, or only where air is; how many changed."""
+        """Put a block everywhere between two corners, included, or only where air is; return how many changed."""
         sides = [range(min(one, other), max(one, other) + 1) for one, other in zip(low, high, strict=True)]
         if name == AIR and sides[1][0] >= self.floor:
             # Clearing above the floor, as every reset does: only what stands there can change.
@@ -58,11 +58,11 @@ class VirtualWorld:
         return sum(self.put(block, name) for block in blocks if not only_air or self.block_at(block) == AIR)
 
     def built(self) -> dict[Block, str]:
-        """What differs from the bare floor: names by position, ``AIR`` where some of the floor is missing."""
+        """Return what differs from the bare floor: names by position, ``AIR`` where some of the floor is missing."""
         return dict(self._changed)
 
     def seen(self) -> Mapping[Block, str]:
-        """What ``built`` returns, and the same mapping again until something changes: not to be written to."""
+        """Return what ``built`` returns, and the same mapping again until something changes: not to be written to."""
         if self._seen[0] != self.revision:
             self._seen = self.revision, self.built()
         return self._seen[1]
@@ -77,7 +77,7 @@ class VirtualWorld:
 
 
 def block_of(point: tuple[float, float, float]) -> Block:
-    """The block that a point lies in."""
+    """Return the block that a point lies in."""
     return math.floor(point[0]), math.floor(point[1]), math.floor(point[2])
 
 
@@ -90,13 +90,13 @@ class Hit(NamedTuple):
 
 
 def direction(yaw: float, pitch: float) -> Vector:
-    """The unit vector of a view in degrees (FACTS: Standing, looking, placing): yaw 0 is south, pitch 90 down."""
+    """Return a view's unit vector; degrees: yaw 0 is south, pitch 90 down (FACTS: Standing, looking, placing)."""
     turn, tilt = math.radians(yaw), math.radians(pitch)
     return -math.sin(turn) * math.cos(tilt), -math.sin(tilt), math.cos(turn) * math.cos(tilt)
 
 
 def cast_ray(eye: Vector, yaw: float, pitch: float, reach: float, is_solid: IsSolid) -> Hit | None:
-    """The first solid block within ``reach`` blocks of the eye; None without one. The eye's own cell never counts."""
+    """Return the first solid block within ``reach`` blocks of the eye, or None. The eye's own cell never counts."""
     way = direction(yaw, pitch)
     cell = [math.floor(part) for part in eye]
     steps = [1 if part > 0 else -1 for part in way]

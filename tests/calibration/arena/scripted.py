@@ -58,5 +58,5 @@ class ScriptedQueries(BlockQueries):
 
 
 def looks(commands: Sequence[str]) -> list[str]:
-    """The teleports among the commands."""
+    """Return the teleports among the commands."""
     return [command for command in commands if command.startswith("/tp")]

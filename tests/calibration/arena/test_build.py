@@ -53,7 +53,7 @@ def built(client: VirtualClient, folder: Path, questions: list[str] | None = Non
 
 
 def spoil(client: VirtualClient) -> None:
-    """A trunk in the arena, a hole in its floor, and a block beside it."""
+    """Put a trunk in the arena, a hole in its floor, and a block beside it."""
     client.realm.world.put((3, 64, 6), "stone")
     client.realm.world.put((3, 63, 9), "air")
     client.realm.world.put((12, 64, 6), "dirt")
@@ -213,7 +213,7 @@ def test_a_scenario_smaller_than_its_arena_is_played_in_the_arenas_near_left_cor
 
 
 def standing_on(client: VirtualClient, arena: Arena) -> set[Cell]:
-    """The cells of the arena that hold a block."""
+    """Return the cells of the arena that hold a block."""
     return {
         (x, y)
         for x in range(arena.size)
@@ -260,7 +260,7 @@ def test_building_again_at_the_same_position_keeps_the_first_copy(tmp_path: Path
     assert client.built == before
 
 
-def test_a_sky_that_is_not_free_is_not_built_into(tmp_path: Path) -> None:
+def test_a_copy_lies_below_blocks_in_the_sky(tmp_path: Path) -> None:
     client = VirtualClient()
     client.realm.world.put((0, 128, 5), "glass")
     found = built(client, tmp_path)
@@ -273,7 +273,7 @@ def declined(client: VirtualClient, profile: Profile) -> None:
         build_arena(context, profile)
 
 
-def test_a_no_changes_nothing(tmp_path: Path) -> None:
+def test_answering_no_changes_nothing(tmp_path: Path) -> None:
     client = VirtualClient()
     spoil(client)
     before = client.built
@@ -365,7 +365,7 @@ def test_the_note_is_written_before_anything_is_built(tmp_path: Path, monkeypatc
 
 
 def left_early(client: VirtualClient, folder: Path) -> tuple[Profile, Path]:
-    """A profile without an arena, whose file isn't there, with the note of one that was built."""
+    """Return a profile without an arena, whose file isn't there, with the note of one that was built."""
     file = folder / "new.toml"
     with context_on(client)(profile_of(client, folder)) as context:
         build_arena(context, profile_of(client, folder), path=file)
@@ -444,7 +444,7 @@ def test_what_can_not_be_kept_for_the_report_is_a_warning(tmp_path: Path) -> Non
 
 
 def pressed_on(client: VirtualClient, patch: pytest.MonkeyPatch) -> list[str]:
-    """The keys that are pressed from here on."""
+    """Return the keys that are pressed from here on."""
     pressed: list[str] = []
     press = client.keyboard.press
 
@@ -457,7 +457,7 @@ def pressed_on(client: VirtualClient, patch: pytest.MonkeyPatch) -> list[str]:
 
 
 def shared(client: VirtualClient, patch: pytest.MonkeyPatch) -> list[str]:
-    """Makes the client's world one that others may share; the keys that are pressed from here on."""
+    """Make the client's world one that others may share; return the keys that are pressed from here on."""
     patch.setattr(client.display, "title", lambda: "Minecraft 1.20.1 - Multiplayer (LAN)")
     return pressed_on(client, patch)
 
@@ -504,7 +504,9 @@ def test_ctrl_c_or_a_closed_window_at_any_time_leaves_keys_up_and_the_profile_as
 
 @pytest.mark.parametrize("after_s", [1.5, 4.0, 7.0])
 @pytest.mark.parametrize("kind", ["lost_focus", "pause", "death"])
-def test_interference_is_one_line_and_the_profile_as_it_was(kind: Kind, after_s: float, tmp_path: Path) -> None:
+def test_interference_is_a_one_line_error_and_leaves_the_profile_as_it_was(
+    kind: Kind, after_s: float, tmp_path: Path
+) -> None:
     client = disturbed(kind, after_s, tmp_path)
     before = (tmp_path / "mine.toml").read_bytes()
     with pytest.raises(McNestedError) as caught:
@@ -516,7 +518,7 @@ def test_interference_is_one_line_and_the_profile_as_it_was(kind: Kind, after_s:
 
 
 @pytest.mark.parametrize("after_s", [1.5, 4.0, 7.0])
-def test_a_chat_that_is_opened_meanwhile_is_closed_or_is_one_line(after_s: float, tmp_path: Path) -> None:
+def test_a_chat_that_is_opened_meanwhile_is_closed_or_is_a_one_line_error(after_s: float, tmp_path: Path) -> None:
     client, file = disturbed("chat", after_s, tmp_path), tmp_path / "mine.toml"
     before = file.read_bytes()
     try:
@@ -537,7 +539,7 @@ def test_a_chat_that_is_opened_meanwhile_is_closed_or_is_one_line(after_s: float
 
 
 def disturbed(kind: Kind, after_s: float, folder: Path) -> VirtualClient:
-    """A client with a profile in ``folder``, where such a mishap is to happen at about that time."""
+    """Return a client with a profile in ``folder``, where such a mishap is to happen at about that time."""
     client = VirtualClient()
     save_profile(profile_of(client, folder), folder / "mine.toml")
     for try_s in range(10):

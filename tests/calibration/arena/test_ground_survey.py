@@ -140,7 +140,7 @@ BOX = ((0, 64, 0), (2, 65, 4))
 
 
 def turns(command: str) -> Reading:
-    """The view that the command's last two numbers ask for."""
+    """Return the view that the command's last two numbers ask for."""
     yaw, pitch = command.split()[-2:]
     return Reading(xyz=(0.5, 64.0, 0.5), yaw=float(yaw), pitch=float(pitch))
 

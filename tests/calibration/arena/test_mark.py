@@ -68,7 +68,7 @@ def test_a_view_between_two_axes_is_refused_with_how_to_turn(yaw: float, message
 
 
 @pytest.mark.parametrize("height", [64.5, 63.9375, 64.42])
-def test_feet_off_a_whole_blocks_top_mark_nothing(height: float) -> None:
+def test_no_arena_is_marked_if_the_feet_are_not_on_top_of_a_whole_block(height: float) -> None:
     with pytest.raises(UserError, match="top of a whole block"):
         arena_from_reading(Reading((0.5, height, 0.5), 0.0, 30.0), (7, 0), 15)
 
@@ -141,7 +141,7 @@ BLANK = np.zeros((8, 8, 3), np.uint8)
 
 @pytest.fixture
 def font_file(tmp_path: Path) -> Path:
-    """A made-up font: each character's code drawn as two columns of dots beside a stroke."""
+    """Return a made-up font: each character's code drawn as two columns of dots beside a stroke."""
     atlas = np.zeros((128, 128, 4), np.uint8)
     for code in range(ord("!"), ord("~") + 1):
         top, left = code // 16 * 8, code % 16 * 8
@@ -248,7 +248,7 @@ def test_with_yes_nothing_is_asked(old_profile: Path, opened: OpenContext) -> No
     assert mark_arena(old_profile, opened, ask=ask, say=lambda _: None, yes=True) == old_profile
 
 
-def test_a_no_leaves_the_profile_as_it_was(old_profile: Path, opened: OpenContext) -> None:
+def test_answering_no_leaves_the_profile_as_it_was(old_profile: Path, opened: OpenContext) -> None:
     before = old_profile.read_bytes()
     assert mark_arena(old_profile, opened, ask=lambda _: False, say=lambda _: None) is None
     assert old_profile.read_bytes() == before
@@ -292,7 +292,7 @@ def test_mistakes_are_reported_before_a_window_is_looked_for(tmp_path: Path, fon
 
 
 @pytest.mark.parametrize("size", [14, 33])
-def test_a_size_that_no_arena_has_is_one_line_before_a_window_is_looked_for(
+def test_an_impossible_arena_size_is_refused_before_a_window_is_looked_for(
     size: int, tmp_path: Path, font_file: Path
 ) -> None:
     with pytest.raises(UserError, match=f"{size} x {size} cells: choose 15 to 32 cells along each side"):

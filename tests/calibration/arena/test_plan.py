@@ -143,7 +143,7 @@ def test_1_12_gets_its_own_blocks_and_syntax() -> None:
     assert commands[-1] == "/replaceitem entity @s slot.hotbar.0 minecraft:planks 64 0"
 
 
-def test_the_border_is_no_material() -> None:
+def test_the_border_block_is_none_of_the_materials() -> None:
     assert border_block(("stone", "oak_planks")) == "lapis_block"
     assert border_block(("lapis_block", "stone")) == "mossy_cobblestone"
     assert FLOOR not in BORDERS

@@ -98,7 +98,7 @@ def test_a_note_is_read_as_it_was_written_and_a_later_one_replaces_it(tmp_path: 
     assert [each.name for each in file.parent.iterdir()] == ["mine.toml.ground"]
 
 
-def test_a_note_that_can_not_be_written_or_removed_is_a_line(tmp_path: Path) -> None:
+def test_a_note_that_can_not_be_written_or_removed_is_a_one_line_error(tmp_path: Path) -> None:
     (tmp_path / "file").write_text("", "utf-8")
     with pytest.raises(ProfileError, match="nothing was built"):
         write_copy_note(PROFILE_HERE, tmp_path / "file" / "mine.toml")
@@ -107,7 +107,7 @@ def test_a_note_that_can_not_be_written_or_removed_is_a_line(tmp_path: Path) -> 
         remove_copy_note(tmp_path / "mine.toml")
 
 
-def test_it_is_removed_once_the_saved_profile_has_the_same_arena(tmp_path: Path) -> None:
+def test_a_note_is_removed_once_the_saved_profile_has_the_same_arena(tmp_path: Path) -> None:
     file = tmp_path / "mine.toml"
     remove_saved_copy_note(PROFILE_HERE, file)
     write_copy_note(PROFILE_HERE, file)

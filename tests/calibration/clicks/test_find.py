@@ -65,7 +65,7 @@ WORLDS = ["noise", "bright", "dark", "specks", "grey noise"]
 
 
 def true_middle(client: VirtualClient, name: str) -> tuple[float, float]:
-    """The middle of a point's button as the client draws it, in framebuffer pixels."""
+    """Return the middle of a point's button as the client draws it, in framebuffer pixels."""
     screen, label = LABELS[name]
     width, height = client.window.size
     gui = -(-width // client.scale), -(-height // client.scale)
@@ -108,7 +108,7 @@ def test_every_button_is_found_in_every_version_scale_and_size(version: str, sca
         check_all_found(client, profile_in(tmp_path))
 
 
-def test_without_a_yes_the_world_is_not_left(tmp_path: Path) -> None:
+def test_the_world_is_not_left_unless_the_player_answers_yes(tmp_path: Path) -> None:
     client = started(VirtualClient())
     questions: list[str] = []
 

@@ -41,7 +41,7 @@ FRAME = np.arange(480 * 854 * 3, dtype=np.uint32).astype(np.uint8).reshape(480, 
         ((0.0, 0.0), slice(0, 10), slice(0, 96)),
     ],
 )
-def test_its_picture_is_what_lies_around_it_and_within_the_window(
+def test_a_points_picture_is_what_lies_around_it_within_the_window(
     at: tuple[float, float], rows: slice, columns: slice
 ) -> None:
     point = RecordedPoint("world", at, FRAME).click_point(2)

@@ -105,12 +105,12 @@ class Computer:
 
 
 def calibrated() -> CalibratedTable:
-    """What a virtual client is unless set otherwise."""
+    """Return what a virtual client is unless set otherwise."""
     return CalibratedTable(date="2026-11-21", version="1.20.1", window=(854, 480), gui_scale=2)
 
 
 def opened(client: VirtualClient) -> Callable[[str], AbstractContextManager[Devices]]:
-    """Opens a virtual client's window."""
+    """Open a virtual client's window."""
 
     @contextmanager
     def open_devices(_title: str) -> Iterator[Devices]:

@@ -39,7 +39,7 @@ def test_without_a_file_the_default_entries_are_shown(tmp_path: Path) -> None:
     assert "set looking_at_block to In Overlay" in found.fix
 
 
-def test_a_damaged_file_is_one_clear_line(tmp_path: Path) -> None:
+def test_a_damaged_file_is_a_clear_one_line_error(tmp_path: Path) -> None:
     found = row(tmp_path, "{")
     path = tmp_path / "debug-profile.json"
     assert found.detail == f"{path} is damaged, it is no JSON: the game will replace it by its default entries"

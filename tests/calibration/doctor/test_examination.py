@@ -35,7 +35,7 @@ def computer(tmp_path: Path) -> Computer:
 
 
 def client_in(change: Callable[[VirtualClient], object], choices: ClientSettings = LOOKING_DOWN) -> VirtualClient:
-    """A virtual client to which something has happened a moment ago."""
+    """Return a virtual client to which something has happened a moment ago."""
     client = VirtualClient(choices)
     change(client)
     client.clock.sleep(SOON_S)
@@ -43,11 +43,11 @@ def client_in(change: Callable[[VirtualClient], object], choices: ClientSettings
 
 
 def as_it_was(_client: VirtualClient) -> None:
-    """Nothing happens."""
+    """Leave the client as it is."""
 
 
 def is_untouched(client: VirtualClient) -> bool:
-    """Whether no key is down, no other window was typed into, and the world is as it was."""
+    """Return whether no key is down, no other window was typed into, and the world is as it was."""
     return not client.window.down and not client.window.strays and not client.built
 
 
@@ -336,7 +336,7 @@ def test_what_options_txt_reduces_is_reported_while_no_debug_screen_is_seen(comp
     assert statuses(computer.examined(opened(client_in(as_it_was))))["reduced debug info"] == "pass"
 
 
-def test_options_that_can_not_be_read_are_one_row(computer: Computer) -> None:
+def test_options_that_can_not_be_read_fail_one_row(computer: Computer) -> None:
     computer.options.write_bytes(b"\x89PNG\r\n\0\0")
     found = rows(computer.examined(no_window))
     assert found["options.txt"].status == "fail"

@@ -1,6 +1,6 @@
 """The rows of options.txt, value by value.
 
-The options on which it depends that a command can be typed and read.
+The options that decide whether a command can be typed and read.
 """
 
 from pathlib import Path

@@ -34,7 +34,7 @@ def computer(tmp_path: Path) -> Computer:
 
 
 def repaired_in(computer: Computer, found: Examination) -> tuple[bool, str]:
-    """Whether it was repair, and the last thing that was said."""
+    """Return whether it was repaired, and the last thing that was said."""
     is_done = repair(found, computer.said.append)
     return is_done, computer.said[-1]
 
@@ -83,7 +83,7 @@ def test_the_options_of_26_3_are_repaired_too_and_any_scale_of_the_debug_screen_
     assert computer.options.read_text("utf-8") == repaired
 
 
-def test_a_scale_of_the_debug_screen_that_is_none_becomes_the_games_own(computer: Computer) -> None:
+def test_an_invalid_debug_screen_scale_becomes_the_games_own(computer: Computer) -> None:
     computer.options.write_text(GOOD.replace("debugGuiScale:0", "debugGuiScale:half"), "utf-8")
     assert repaired_in(computer, computer.examined(no_window))[0]
     assert computer.options.read_text("utf-8") == GOOD
@@ -101,7 +101,7 @@ OF_26_3 = GOOD.replace("version:3465", "version:5023")
 
 
 def uncalibrated(computer: Computer, entries: str | None) -> Computer:
-    """The computer with 26.3 installed, never calibrated, with that debug-profile.json or none."""
+    """Return the computer with 26.3 installed, never calibrated, with that debug-profile.json or none."""
     computer.save(Profile(screen=ScreenTable(font=str(computer.font))))
     computer.options.write_text(OF_26_3, "utf-8")
     computer.entries.unlink()

@@ -150,7 +150,7 @@ def shown() -> Frame:
 
 
 def levelled(frame: Frame, darkest: float, brightest: float) -> Frame:
-    """The frame with its levels squeezed into that range."""
+    """Return the frame with its levels squeezed into that range."""
     found: Frame = (darkest + frame.astype(np.float32) * (brightest - darkest) / 255).astype(np.uint8)
     return found
 
@@ -181,7 +181,7 @@ def test_a_picture_without_text_has_no_fault_that_is_known() -> None:
     assert picture_fault(np.full_like(frame, 128), FONT) is None
 
 
-def test_the_row_of_the_debug_screen_says_it(shown: Frame) -> None:
+def test_the_debug_screens_row_says_what_is_wrong_with_the_picture(shown: Frame) -> None:
     contents = ScreenContents("unknown", None, None, Reading(problem="no debug screen: press F3"))
     rows = [
         screen_rows(WindowSnapshot(WINDOW, (854, 480), None, True, contents, picture), FONT)[0]
@@ -257,7 +257,7 @@ def test_a_gui_scale_is_the_profiles_if_that_names_one(wanted: int | None, statu
         ((1700, 1000), "fail"),
     ],
 )
-def test_a_ratio_may_differ_from_a_whole_number_by_a_hundredth(pictured: Size, status: str) -> None:
+def test_the_scaling_may_differ_from_a_whole_number_by_a_hundredth(pictured: Size, status: str) -> None:
     assert scaling_row(snapshot_of_size(pictured, (854, 480))).status == status
 
 

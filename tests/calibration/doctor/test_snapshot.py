@@ -29,7 +29,7 @@ def shown(client: VirtualClient) -> tuple[str, str | None, int | None]:
     return contents.screen, contents.line, contents.scales and contents.scales.gui
 
 
-def test_a_world_is_read() -> None:
+def test_a_snapshot_of_the_world_is_read() -> None:
     snapshot = take_snapshot(started(VirtualClient()).devices, FONT)
     assert snapshot.window == Fingerprint("Minecraft 1.20.1 - Singleplayer", (854, 480), Scales(2, 2))
     assert (snapshot.picture_size, snapshot.is_in_front, snapshot.is_world) == ((854, 480), True, True)
@@ -121,7 +121,7 @@ def test_a_person_has_half_a_minute_to_switch_to_the_game() -> None:
     assert said[0].endswith("the doctor looks for 30 s.")
 
 
-def test_once_there_they_have_five_seconds_to_close_a_menu() -> None:
+def test_a_person_in_the_game_has_five_seconds_to_close_a_menu() -> None:
     client = started(VirtualClient(options=GameOptions(pause_on_lost_focus=False)))
     client.game.open("pause")
     client.clock.sleep(0.3)
@@ -131,7 +131,7 @@ def test_once_there_they_have_five_seconds_to_close_a_menu() -> None:
     assert said[0].endswith("the doctor looks for 5 s.")
 
 
-def test_those_five_seconds_begin_when_they_come() -> None:
+def test_the_five_seconds_begin_when_the_player_comes() -> None:
     client = started(VirtualClient())
     client.game.open("pause")
     client.set_front(is_in_front=False)

@@ -44,7 +44,7 @@ def test_how_far_the_step_was_not_undone_is_measured() -> None:
     assert step.off == pytest.approx(math.dist(client.game.realm.player.feet, before), abs=0.002)
 
 
-def test_without_a_key_that_moves_there_is_none() -> None:
+def test_without_a_key_that_moves_the_player_no_moving_key_is_named() -> None:
     client = started(VirtualClient())
     before = client.game.realm.player.feet
     assert moving_key(window_of(client), KeysTable(forward="i", back="k", left="j")) is None

@@ -29,7 +29,7 @@ def sources_in(folder: Path) -> FontSources:
 
 
 def flipped() -> Font:
-    """Another font: every glyph upside down."""
+    """Return another font: every glyph upside down."""
     return Font({char: bytes(int(f"{byte:08b}"[::-1], 2) for byte in columns) for char, columns in FONT.glyphs.items()})
 
 
@@ -63,7 +63,7 @@ def test_scale_colour_and_phase_are_found_and_every_line_is_read_back(
 
 
 @pytest.mark.parametrize(("version", "line"), [("1.20.1", "F3+C agrees"), ("1.12.2", "it came with 1.13")])
-def test_it_is_checked_with_f3_and_c_where_the_version_has_that(version: str, line: str, tmp_path: Path) -> None:
+def test_the_font_is_checked_with_f3_and_c_where_the_version_has_that(version: str, line: str, tmp_path: Path) -> None:
     client = started(VirtualClient(version=version))
     client.clipboard.write("mine")
     assert line in find_font(context_over(client), Profile(), sources_in(tmp_path)).lines[-1]
@@ -232,7 +232,7 @@ def painted(scale: int) -> Frame:
 
 
 def grey_with(share: float, shade: int) -> Frame:
-    """A frame whose upper left, half as high and a third as wide, has that shade in a share of its pixels."""
+    """Return a frame whose upper left, half as high and a third as wide, has that shade in a share of its pixels."""
     frame: Frame = np.full((200, 300, 3), 120, np.uint8)
     frame[:100, :100].reshape(-1, 3)[:] = 120
     frame[0, : round(share * 100 * 100)] = shade
@@ -253,7 +253,7 @@ def test_a_gui_scale_that_no_font_fits_is_named(scale: int) -> None:
 
 
 @pytest.mark.parametrize(("share", "shade"), [(0.0, 0), (0.002, 224), (0.005, 219), (0.005, 229)])
-def test_without_enough_of_the_texts_colour_there_is_no_debug_screen(share: float, shade: int) -> None:
+def test_a_picture_with_little_of_the_texts_colour_shows_no_debug_screen(share: float, shade: int) -> None:
     error = nothing_fits([grey_with(share, shade)], [MINE], {})
     assert isinstance(error, UnreadableError)
     assert "no debug screen is to be seen" in str(error)

@@ -19,7 +19,7 @@ from tests.calibration.contexts import font_file_in
 
 @pytest.fixture
 def game(tmp_path: Path) -> Path:
-    """The game folder of a Linux user with two versions and two packs."""
+    """Return the game folder of a Linux user with two versions and two packs."""
     folder = tmp_path / ".minecraft"
     for version in ("1.12.2", "1.20.1"):
         (folder / "versions" / version).mkdir(parents=True)
@@ -105,14 +105,14 @@ def test_a_font_of_another_computer_is_this_ones_of_that_version(font: str, tmp_
     assert font_of_recording(file, here) == same
 
 
-def test_its_own_font_comes_first(tmp_path: Path) -> None:
+def test_the_font_that_a_recording_names_comes_first(tmp_path: Path) -> None:
     own = font_file_in(tmp_path)
     jar_in(tmp_path, "1.20.1")
     file = recording_of(f"[screen]\nfont = '{own}'\n", tmp_path)
     assert font_of_recording(file, System("linux", tmp_path, {})) == own
 
 
-def test_one_without_a_profile_is_one_line(tmp_path: Path) -> None:
+def test_a_recording_without_a_profile_is_a_one_line_error(tmp_path: Path) -> None:
     writer = PartWriter(tmp_path / "one.mcap", {"format": str(FORMAT)})
     writer.close()
     with pytest.raises(RecordingError, match="says nothing of its profile"):

@@ -138,7 +138,7 @@ def test_the_data_version_is_the_files_else_the_jars_else_a_known_one(
 
 
 @pytest.mark.parametrize("number", [True, -1, 0, 4553, 10**9, "4671", 4671.0, None])
-def test_a_data_version_that_is_none_counts_as_missing(number: object, tmp_path: Path) -> None:
+def test_an_invalid_data_version_counts_as_missing(number: object, tmp_path: Path) -> None:
     assert loaded(tmp_path, json.dumps({"DataVersion": number, "custom": {}})).data_version is None
 
 
@@ -222,7 +222,7 @@ def test_a_jar_tells_its_data_version_if_that_is_a_likely_one(
     assert data_version_in(jar) == found
 
 
-def test_what_is_no_jar_tells_nothing(tmp_path: Path) -> None:
+def test_a_file_that_is_no_jar_tells_no_version(tmp_path: Path) -> None:
     (tmp_path / "x.jar").write_bytes(b"PK\x03\x04 and no more")
     assert data_version_in(tmp_path / "x.jar") is None
     assert data_version_in(tmp_path / "none.jar") is None

@@ -19,7 +19,7 @@ def system(home: Path, platform: Platform = "linux", **environment: str) -> Syst
 
 
 def game(folder: Path, used: float = 1000.0) -> Path:
-    """A game folder whose options.txt was written at that time."""
+    """Return a game folder whose options.txt was written at that time."""
     folder.mkdir(parents=True, exist_ok=True)
     (folder / "options.txt").write_text("lang:en_us\n", "utf-8")
     os.utime(folder / "options.txt", (used, used))
@@ -101,7 +101,7 @@ def test_a_variable_of_the_environment_moves_a_launchers_folder(tmp_path: Path) 
 
 
 @pytest.mark.parametrize("variable", ["", "data"])
-def test_a_variable_that_names_no_whole_path_counts_as_none(variable: str, tmp_path: Path) -> None:
+def test_a_variable_without_an_absolute_path_is_ignored(variable: str, tmp_path: Path) -> None:
     folder = game(tmp_path / ".local/share/multimc/instances/Mine/.minecraft")
     assert [each.path for each in game_folders(system(tmp_path, XDG_DATA_HOME=variable))] == [folder]
 

@@ -150,7 +150,7 @@ def test_a_file_without_options_is_refused(data: bytes) -> None:
         parse_options(data, HERE)
 
 
-def test_a_file_that_can_not_be_read_is_one_line(tmp_path: Path) -> None:
+def test_a_file_that_can_not_be_read_is_a_one_line_error(tmp_path: Path) -> None:
     for path in (tmp_path / "missing.txt", tmp_path):
         with pytest.raises(ProfileError, match="can't be read") as caught:
             load_options(path)

@@ -15,7 +15,7 @@ PRISM = "/usr/bin/java -jar /usr/share/prismlauncher/NewLaunch.jar org.prismlaun
 
 @pytest.fixture
 def games(tmp_path: Path) -> tuple[Path, Path]:
-    """Two game folders, one with a space in its name."""
+    """Return two game folders, one with a space in its name."""
     folders = tmp_path / ".minecraft", tmp_path / "My Pack" / "minecraft"
     for folder in folders:
         folder.mkdir(parents=True)

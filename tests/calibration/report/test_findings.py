@@ -26,7 +26,7 @@ def found(step: str, *lines: str, pictures: tuple[ReportPicture, ...] = ()) -> S
     return StepResult(step, Profile(), lines, len(lines), pictures)
 
 
-def test_what_is_kept_comes_back(tmp_path: Path) -> None:
+def test_saved_findings_are_loaded_as_they_were(tmp_path: Path) -> None:
     profile = tmp_path / "mine.toml"
     font = found("font", "scale 2", pictures=(ReportPicture("grey", GREY, "all over"), ReportPicture("red", RED)))
     save_findings(profile, [font, found("cross-check")], [Check(CheckName.CLIPBOARD, "skip", "none")], "2026-11-21")
@@ -79,7 +79,7 @@ def test_a_picture_that_is_gone_is_left_out(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     "text", ["{", "[]", '{"steps": [{"step": 3}]}', '{"checks": [{"name": "a", "status": "odd", "detail": ""}]}']
 )
-def test_a_damaged_list_is_one_line_that_says_what_to_do(tmp_path: Path, text: str) -> None:
+def test_a_damaged_list_is_a_one_line_error_that_says_what_to_do(tmp_path: Path, text: str) -> None:
     profile = tmp_path / "mine.toml"
     save_findings(profile, [], today="2026-11-21")
     (findings_folder(profile) / "found.json").write_text(text)
@@ -96,7 +96,7 @@ def test_a_list_never_names_a_file_outside_its_folder(tmp_path: Path) -> None:
         load_findings(profile)
 
 
-def test_a_folder_that_cant_be_made_is_one_line(tmp_path: Path) -> None:
+def test_a_folder_that_can_not_be_made_is_a_one_line_error(tmp_path: Path) -> None:
     (tmp_path / "mine-calibration").write_text("a file")
     with pytest.raises(ProfileError):
         save_findings(tmp_path / "mine.toml", [found("font")])

@@ -72,7 +72,7 @@ def page(report: CalibrationReport, names: Names = NOBODY) -> Page:
     return Page(report_html(report, names))
 
 
-def test_it_is_one_whole_document_without_scripts() -> None:
+def test_the_report_is_one_whole_document_without_scripts() -> None:
     seen = page(MADE)
     assert seen.open == []
     names = {name for name, _ in seen.tags}
@@ -80,7 +80,7 @@ def test_it_is_one_whole_document_without_scripts() -> None:
     assert not names & {"script", "link", "iframe", "object", "embed", "form", "a", "base", "video", "audio"}
 
 
-def test_it_fetches_nothing() -> None:
+def test_the_report_fetches_nothing() -> None:
     html = report_html(MADE, NOBODY)
     assert not re.search(r"https?://|url\(|@import|//\w", html)
     seen = Page(html)
@@ -91,7 +91,7 @@ def test_it_fetches_nothing() -> None:
     assert policy == "default-src 'none'; img-src data:; style-src 'unsafe-inline'"
 
 
-def test_it_shows_the_fingerprint_the_checks_and_the_steps_in_the_order_of_the_run() -> None:
+def test_the_report_shows_the_fingerprint_the_checks_and_the_steps_in_the_order_of_the_run() -> None:
     texts = page(MADE).texts
     for text in ("1.20.1", "854 x 480", "2026-11-21", "not found", "start the game", "0.216 blocks a tick"):
         assert text in texts
@@ -104,7 +104,7 @@ def test_a_fix_is_shown_only_where_something_has_to_be_done() -> None:
     assert "not needed" not in page(dataclasses.replace(MADE, findings=Findings((), (done,)))).texts
 
 
-def test_its_list_of_contents_is_on_top_of_it_word_for_word() -> None:
+def test_the_reports_list_of_contents_stands_at_its_top_word_for_word() -> None:
     seen = page(MADE)
     assert seen.texts[seen.texts.index("In this file") + 1 :][: len(contents(MADE))] == contents(MADE)
     assert "2 checks" in contents(MADE)[0]
@@ -161,7 +161,7 @@ def test_whatever_a_text_holds_it_is_text(text: str) -> None:
 
 
 @given(st.text("bdfhjkqvwz", min_size=4, max_size=8), st.sampled_from(["", "'", " ", "/", ".", "_7"]))
-def test_it_names_nobody(name: str, around: str) -> None:
+def test_the_report_names_nobody(name: str, around: str) -> None:
     names = Names(f"/home/{name}", (name,))
     text = f"{around}{name}{around} in /home/{name}/x, C:\\Users\\{name}\\x"
     step = StepFindings("font", text, (text,), 1, (ReportPicture(text, GREY, text),))
@@ -180,5 +180,5 @@ def test_a_picture_is_not_searched_for_names() -> None:
 
 
 @pytest.mark.parametrize("rule", ["prefers-color-scheme: dark", "@media print", "max-width"])
-def test_it_fits_dark_screens_paper_and_phones(rule: str) -> None:
+def test_the_report_fits_dark_screens_paper_and_phones(rule: str) -> None:
     assert rule in report_html(MADE, NOBODY)

@@ -86,11 +86,11 @@ def test_a_text_that_names_nobody_stays_as_it_is(text: str) -> None:
     assert ANN.removed_from(text) == text
 
 
-def test_a_home_at_the_root_of_a_disk_replaces_nothing() -> None:
+def test_a_home_folder_at_the_root_of_a_disk_replaces_nothing() -> None:
     assert Names("/", ()).removed_from("/etc/x /") == "/etc/x /"
 
 
-def test_a_name_of_one_letter_gives_nobody_away() -> None:
+def test_a_one_letter_name_is_not_removed_from_a_text() -> None:
     assert Names("/root", ("x",)).removed_from("1024 x 768") == "1024 x 768"
 
 

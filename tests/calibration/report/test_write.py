@@ -13,7 +13,7 @@ from mc_nested.live.profile.tables import Profile, ScreenTable
 
 
 def code_of(*words: str | Path) -> int | str | None:
-    """The exit code of the command."""
+    """Return the exit code of the command."""
     with pytest.raises(SystemExit) as ended:
         main(["calibrate", "report", *map(str, words)])
     return ended.value.code
@@ -42,7 +42,7 @@ def test_the_report_lies_beside_the_profile_and_its_list_is_printed(
     assert "~/.minecraft/1.20.1.jar" in html.replace("\\", "/")
 
 
-def test_without_images_and_with_another_file(profile: Path, tmp_path: Path) -> None:
+def test_no_images_and_another_file_can_be_chosen(profile: Path, tmp_path: Path) -> None:
     out = tmp_path / "new" / "folder" / "report.html"
     assert code_of("--profile", profile, "--out", out, "--no-images") in (0, None)
     assert "data:image" not in out.read_text("utf-8").replace("img-src data:", "")
@@ -55,12 +55,14 @@ def test_the_same_profile_gives_the_same_report_to_the_byte(profile: Path, tmp_p
     assert (tmp_path / "one").read_bytes() == (tmp_path / "two").read_bytes()
 
 
-def test_no_such_profile_is_one_line(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_missing_profile_is_a_one_line_error(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert code_of("--profile", tmp_path / "none.toml") == 2
     assert len(capsys.readouterr().err.splitlines()) == 1
 
 
-def test_an_out_that_is_a_folder_is_one_line(profile: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_an_out_file_that_is_a_folder_is_a_one_line_error(
+    profile: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     (tmp_path / "folder").mkdir()
     assert code_of("--profile", profile, "--out", tmp_path / "folder") == 2
     assert "name another --out" in capsys.readouterr().err

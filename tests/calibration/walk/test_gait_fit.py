@@ -14,14 +14,14 @@ PLAIN = GaitModel(PUSH, INERTIA)
 
 
 def trace_of(model: GaitModel, held_s: float, felt: int, *, seen_of: np.random.Generator | None = None) -> HoldTrace:
-    """A hold as the debug screen shows it, in three decimals; with ``seen_of`` some of its positions are missed."""
+    """Return a hold as the debug screen shows it, in three decimals; ``seen_of`` leaves some positions out."""
     path = [round(position, 3) for position in model.path(felt)[1:]]
     kept = [position for position in path[:-1] if seen_of is None or seen_of.random() < 0.8]
     return HoldTrace("walk", held_s, tuple(dict.fromkeys([*kept, path[-1]])))
 
 
 def holds(model: GaitModel, seed: int, count: int = 24) -> list[HoldTrace]:
-    """Holds of 1 to 8 ticks, a few of them felt a tick longer or shorter than they were."""
+    """Return holds of 1 to 8 ticks, a few of them felt a tick longer or shorter than they were."""
     rng = np.random.default_rng(seed)
     asked = [1 + index % 8 + rng.uniform(-0.4, 0.4) for index in range(count)]
     return [

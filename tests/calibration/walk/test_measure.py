@@ -22,11 +22,11 @@ from tests.calibration.virtual_context import context_on, profile_of
 LONGEST_S = 90.0
 
 LATER = [pytest.param(after_s, marks=pytest.mark.slow) for after_s in (15.0, 40.0)]
-"""Seconds after which somebody interferes: while it sneaks out, and while it walks."""
+"""Seconds after which somebody interferes: while the player sneaks out, and while it walks."""
 
 
 def measured(client: VirtualClient, folder: Path, profile: Profile | None = None) -> StepResult:
-    """What is found, in less than 90 seconds of game time, with no key left down and none to another window."""
+    """Measure in less than 90 seconds of game time, with no key left down and none to another window."""
     profile = profile or profile_of(client, folder)
     began = client.clock.now()
     with context_on(client)(profile) as context:
@@ -38,7 +38,7 @@ def measured(client: VirtualClient, folder: Path, profile: Profile | None = None
 
 
 def off_held_out(client: VirtualClient, found: StepResult, patch: pytest.MonkeyPatch) -> float:
-    """How far off new holds end that the profile predicts by the ticks that truly felt them: RMS, in blocks."""
+    """Return how far off new holds end that the profile predicts by the ticks truly felt: RMS, in blocks."""
     felt: list[bool] = []
     tick = client.game.tick
 
@@ -303,7 +303,7 @@ def test_in_a_game_that_others_may_share_nothing_is_pressed(tmp_path: Path, monk
 
 @pytest.fixture
 def kept(tmp_path: Path) -> Path:
-    """A profile's file, which names no walk of its own."""
+    """Return a profile's file, which names no walk of its own."""
     file = tmp_path / "mine.toml"
     save_profile(profile_of(VirtualClient(), tmp_path), file)
     return file
@@ -328,7 +328,7 @@ def test_what_was_found_is_written_with_its_picture(kept: Path) -> None:
         ("f3_off", McNestedError),
     ],
 )
-def test_interference_is_one_line_and_the_profile_as_it_was(
+def test_interference_is_a_one_line_error_and_leaves_the_profile_as_it_was(
     kind: Kind, error: type[McNestedError], after_s: float, kept: Path
 ) -> None:
     before = kept.read_bytes()

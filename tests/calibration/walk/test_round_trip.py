@@ -17,7 +17,7 @@ FRAME_S = 1 / 60
 def hold(
     pressed: float, held_s: float, felt_s: float, seen_s: float, rng: np.random.Generator | None = None
 ) -> HoldTiming:
-    """A hold in a game that ticks at whole multiples of 50 ms; with ``rng`` every event is late by its own amount."""
+    """Return a hold in a game with ticks at multiples of 50 ms; with ``rng`` every event is late by its own amount."""
 
     def late(most: float) -> float:
         return rng.uniform(-most, most) if rng else 0.0

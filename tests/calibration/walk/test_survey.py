@@ -28,7 +28,7 @@ BEGIN = GroundVector(0.5, -0.25)
 
 
 def recorded(*offsets: tuple[float, float]) -> RecordedHold:
-    """A hold of 0.2 seconds with these positions, right and forward of where it began, seen 50 ms apart."""
+    """Return a hold of 0.2 seconds with these positions, right and forward of where it began, seen 50 ms apart."""
     sightings = [
         Sighting(1.05 + 0.05 * index, 1.058 + 0.05 * index, GroundVector(0.5 + right, -0.25 + forward))
         for index, (right, forward) in enumerate(offsets)
@@ -120,7 +120,7 @@ KEYS = KeysTable()
         ((0.0, 0.0), None),
     ],
 )
-def test_a_step_leads_one_way_or_none(offset: tuple[float, float], way: Direction | None) -> None:
+def test_a_step_leads_in_one_direction_or_in_none(offset: tuple[float, float], way: Direction | None) -> None:
     assert direction_of(offset) == way
 
 

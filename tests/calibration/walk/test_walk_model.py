@@ -28,7 +28,7 @@ SNEAKED = GaitModel(PUSH * SNEAKING, INERTIA)
 
 
 def hold_of(model: GaitModel, gait: Gait, pressed: float, held_s: float) -> SurveyHold:
-    """A hold forward, as it is seen on the screen."""
+    """Return a hold forward, as it is seen on the screen."""
     first = math.ceil((pressed + INPUT_S) / TICK_S)
     ticks = math.ceil((pressed + held_s + INPUT_S) / TICK_S) - first
     sightings = [
@@ -40,7 +40,7 @@ def hold_of(model: GaitModel, gait: Gait, pressed: float, held_s: float) -> Surv
 
 
 def holds(walking: GaitModel = PLAIN, sneaking: GaitModel = SNEAKED, count: int = 32) -> list[SurveyHold]:
-    """Walking holds of 1 to 8 ticks and a bit, and half as many sneaking ones, at all phases of the tick."""
+    """Return walking holds of 1 to 8 ticks and a bit, and half as many sneaking ones, at all phases of the tick."""
     walked = [hold_of(walking, "walk", 10 + 2.0309 * index, (1.1 + index % 8) * TICK_S) for index in range(count)]
     sneaked = [hold_of(sneaking, "sneak", 100 + 2.0309 * index, (5.1 + index) * TICK_S) for index in range(count // 2)]
     return [*walked, *sneaked]
@@ -95,7 +95,7 @@ def test_only_where_frames_are_slow_the_round_trip_is_taken_for_longer_than_it_l
 
 
 def moved(hold: SurveyHold, *, aside: float = 0.0, later_s: float = 0.0, further: float = 0.0) -> SurveyHold:
-    """A hold whose last positions are pushed aside or on, or seen later."""
+    """Return a hold whose last positions are pushed aside or on, or seen later."""
     sightings = list(hold.recorded.sightings)
     for index in range(len(sightings) - 3, len(sightings)):
         right, forward = sightings[index].position
@@ -160,10 +160,10 @@ def test_a_line_that_begins_below_zero_still_grows_with_every_tick() -> None:
     assert list(late.table.covered[:3]) == pytest.approx([SHORTEST_STEP * ticks for ticks in (1, 2, 3)])
 
 
-def test_minecrafts_own_holds_lie_on_no_line() -> None:
+def test_holds_of_the_real_walk_lie_on_no_line() -> None:
     assert empirical_walk(holds_led(lambda held_s: displacement(round(held_s / 0.05 + 0.01)), 20), USUAL) is None
 
 
-def test_too_few_holds_or_sneaking_that_is_no_slower_give_none() -> None:
+def test_too_few_holds_or_sneaking_that_is_no_slower_give_no_line() -> None:
     assert empirical_walk(holds_led(lambda held_s: 4.0 * held_s, 7), USUAL) is None
     assert empirical_walk(holds_led(lambda held_s: 4.0 * held_s, sneaking=1.0), USUAL) is None

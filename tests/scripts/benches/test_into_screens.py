@@ -1,4 +1,4 @@
-"""What a soak counts of presses for the world that reached a screen over it."""
+"""Which presses for the world a soak counts as having reached a screen over it."""
 
 import pytest
 
@@ -7,7 +7,7 @@ from sim.client.client import VirtualClient
 
 
 def pressed_after(opened_s: float, screen: str = "pause") -> tuple[int, int]:
-    """What is counted where a key is pressed so many seconds after a screen opened, without looking."""
+    """Return what is counted if a key is pressed so many seconds after a screen opened, without looking."""
     client = VirtualClient(version="26.3")
     presses = ScreenPresses(client)
     controller = presses.controller()
@@ -30,7 +30,7 @@ def test_a_press_before_any_picture_of_the_screen_is_counted_apart() -> None:
 
 
 @pytest.mark.parametrize("after_s", [0.0, 0.3])
-def test_a_press_in_the_world_is_neither(after_s: float) -> None:
+def test_a_press_in_the_world_is_not_counted(after_s: float) -> None:
     assert pressed_after(after_s, "world") == (0, 0)
 
 

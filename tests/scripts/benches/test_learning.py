@@ -37,7 +37,7 @@ def test_where_all_runs_have_had_their_episodes_others_begin() -> None:
 
 
 @pytest.mark.slow
-def test_it_leaves_nothing_in_the_temporary_folder(tmp_path: Path) -> None:
+def test_the_benchmark_leaves_nothing_in_the_temporary_folder(tmp_path: Path) -> None:
     env = {**os.environ, **dict.fromkeys(("TMPDIR", "TEMP", "TMP"), str(tmp_path))}
     words = ["--runs", "1", "2", "--rounds", "1", "--slice-s", "0.05", "--json"]
     command = [sys.executable, "scripts/bench.py", "learning", *words]

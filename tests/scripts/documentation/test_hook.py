@@ -15,7 +15,7 @@ def test_each_part_is_made_where_a_page_asks_for_it(name: str) -> None:
     assert len(page) > 200
 
 
-def test_what_nothing_makes_is_an_error_that_names_it() -> None:
+def test_a_part_that_nothing_makes_is_an_error_that_names_it() -> None:
     with pytest.raises(PluginError, match="nothing makes 'soup': there is command line, "):
         made("<!-- made from the code: soup -->")
 

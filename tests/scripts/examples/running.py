@@ -30,7 +30,7 @@ def run(name: str, folder: Path, *words: str) -> subprocess.CompletedProcess[str
 
 
 def pair_in(folder: Path) -> str:
-    """PAIR's file in that folder."""
+    """Return PAIR's file in that folder."""
     (folder / "pair.toml").write_text(scenario_text(PAIR), "utf-8")
     return str(folder / "pair.toml")
 

@@ -86,7 +86,7 @@ def test_a_few_hundred_steps_print_every_return_and_end_with_a_greedy_episode(tm
 
 
 @pytest.mark.slow
-def test_it_learns_two_blocks_within_seconds(tmp_path: Path) -> None:
+def test_the_example_learns_two_blocks_within_seconds(tmp_path: Path) -> None:
     done = run("cleanrl_dqn", tmp_path, "--scenario", pair_in(tmp_path), "--steps", "6000")
     assert done.stdout.splitlines()[-1] == f"greedy: score {PAIR.optimum:g}"
 
@@ -101,6 +101,6 @@ def test_a_mistake_is_one_line_and_exit_code_2(words: list[str], says: str, tmp_
     assert done.stderr.count("\n") == 1
 
 
-def test_a_scenario_that_there_is_not_needs_no_process_of_its_own(capsys: pytest.CaptureFixture[str]) -> None:
+def test_an_unknown_scenario_starts_no_process(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["--scenario", "castle"]) == 2
     assert "no scenario 'castle'" in capsys.readouterr().err

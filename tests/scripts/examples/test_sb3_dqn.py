@@ -30,7 +30,7 @@ def test_a_few_hundred_steps_end_with_a_greedy_episode(tmp_path: Path) -> None:
 
 
 @pytest.mark.slow
-def test_it_learns_two_blocks_within_seconds(tmp_path: Path) -> None:
+def test_the_example_learns_two_blocks_within_seconds(tmp_path: Path) -> None:
     done = run("sb3_dqn", tmp_path, "--scenario", pair_in(tmp_path), "--steps", "3000")
     assert done.stdout.splitlines()[-1] == f"greedy: score {PAIR.optimum:g} of {PAIR.optimum:g}"
     assert "ep_rew_mean" in done.stdout  # the library's own table of what the episodes return

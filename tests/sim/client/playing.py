@@ -20,7 +20,7 @@ TAP_S, SOON_S = 0.05, 0.3
 
 
 def arena_of(client: VirtualClient, facing: Facing = "south") -> Arena:
-    """An arena whose ground is the client's floor."""
+    """Return an arena whose ground is the client's floor."""
     return Arena.around((-20, client.realm.world.floor, 31), facing)
 
 
@@ -29,12 +29,12 @@ def read(client: VirtualClient) -> Reading:
 
 
 def screen_of(client: VirtualClient) -> WindowScreen:
-    """What reads the client's window."""
+    """Return what reads the client's window."""
     return WindowScreen(client.display, FONT, version=client.settings.version)
 
 
 def connection_to(client: VirtualClient, *, is_server_allowed: bool = False) -> GameConnection:
-    """The client, read with its own font."""
+    """Return the client, read with its own font."""
     controller = InputController(client.devices, InputTable())
     screen = screen_of(client)
     return GameConnection(client.devices, controller, screen, is_server_allowed=is_server_allowed)

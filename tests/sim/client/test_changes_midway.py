@@ -39,7 +39,7 @@ class Run:
     presses: ScreenPresses
 
     def change(self, scale: int = SCALE, debug: int = 0, size: tuple[int, int] = WINDOW) -> None:
-        """As by the options of the game, or by the window's edge."""
+        """Change the scale or the size, as the game's options or the window's edge do."""
         settings = self.client.settings
         options = dataclasses.replace(settings.options, debug_gui_scale=debug)
         self.client.settings = dataclasses.replace(settings, scale=scale, options=options)
@@ -49,7 +49,7 @@ class Run:
         self.client.clock.call_at(self.client.clock.now() + seconds, event)
 
     def build(self) -> None:
-        """Three blocks, and each outcome is what the world holds."""
+        """Build three blocks, and check each outcome against what the world holds."""
         arena = arena_of(self.client)
         built = set()
         for action in (Action.BD, Action.BD, Action.BD):
@@ -59,13 +59,13 @@ class Run:
         assert self.client.placed(arena) == built
 
     def check_it_goes_on(self) -> None:
-        """The next episode begins where it should, and all is built."""
+        """Check that the next episode begins where it should, and that all is built."""
         assert self.game.reset(LINE.best_material) == LINE.start == self.client.cell(arena_of(self.client))
         self.build()
         self.check_nothing_went_astray()
 
     def check_nothing_went_astray(self) -> None:
-        """Every key is up, and none was pressed into a screen or into another window."""
+        """Check that every key is up, and that none was pressed into a screen or into another window."""
         assert (self.presses.into_screens, self.presses.too_late) == (0, 0)
         assert (self.client.window.down, self.client.window.strays) == (set(), [])
 
@@ -105,7 +105,7 @@ def test_a_scale_or_a_size_that_changes_is_seen_and_play_goes_on(
 
 
 @pytest.mark.parametrize("version", VERSIONS)
-def test_where_the_profile_names_the_scale_another_one_is_one_line_that_says_so(version: str) -> None:
+def test_a_scale_other_than_the_profiles_is_a_one_line_error_that_says_so(version: str) -> None:
     run = running(version, is_scale_named=True)
     debug = run.client.scales.debug
     run.in_s(0.1, lambda: run.change(scale=1))

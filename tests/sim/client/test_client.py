@@ -31,7 +31,7 @@ def click_button(client: VirtualClient, label: str) -> None:
     click(client, *found.middle)
 
 
-def test_its_devices_are_those_of_the_protocols() -> None:
+def test_the_clients_devices_are_those_of_the_protocols() -> None:
     client = VirtualClient()
     display: Display = client.display
     keyboard: Keyboard = client.keyboard

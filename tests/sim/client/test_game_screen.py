@@ -213,7 +213,7 @@ def test_a_debug_screen_that_was_off_is_on_again() -> None:
     assert client.game.has_f3
 
 
-def test_it_gives_up_in_bounded_time_and_leaves_the_last_frames(
+def test_recovery_gives_up_in_bounded_time_and_leaves_the_last_frames(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(recovery, "PATIENCE_S", 3.0)

@@ -48,7 +48,9 @@ def test_from_1_13_on_blocks_are_built_under_any_layout(layout: str) -> None:
 
 
 @pytest.mark.parametrize("layout", WITHOUT_LATIN_LETTERS)
-def test_to_1_12_a_layout_without_latin_letters_is_one_line_and_nothing_is_pressed(layout: str, tmp_path: Path) -> None:
+def test_to_1_12_a_layout_without_latin_letters_is_a_one_line_error_and_nothing_is_pressed(
+    layout: str, tmp_path: Path
+) -> None:
     client = VirtualClient(version=OLD, layout=layout)
     opened = open_live_game(LINE, opening_on(client, profile_in(tmp_path)))
     with pytest.raises(DesktopError, match="types no w, s, a, d, t: switch to English") as raised, opened:

@@ -31,7 +31,7 @@ F, B, L, R, FD, LD, RD, BD = Action
 
 @contextmanager
 def played(team: Team) -> Iterator[tuple[LiveTeam, list[VirtualClient]]]:
-    """A team on virtual clients that share a world."""
+    """Open a team on virtual clients that share a world."""
     first = VirtualClient(seed=0)
     clients = [first, *(VirtualClient(seed=number, joins=first) for number in range(1, team.builders))]
     with ExitStack() as games:

@@ -206,7 +206,7 @@ class Target:
 
 
 def target_of(kind: Kind, count: int = 200) -> Target:
-    """A client to which one kind of mishap happened ``count`` times."""
+    """Return a client to which one kind of mishap happened ``count`` times."""
     target = Target()
     mishaps = Mishaps(target, np.random.default_rng(1))
     for _ in range(count):

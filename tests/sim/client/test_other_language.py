@@ -26,7 +26,7 @@ RECORDED: dict[str, tuple[ScreenName, str]] = {
 
 
 def points_of(client: VirtualClient) -> ClickPoints:
-    """The points as a person records them by hand: hovering over each, and over the world's name."""
+    """Return the points as a person records them by hand: hovering over each, and over the world's name."""
     width, height = client.window.size
     gui = -(-width // client.scale), -(-height // client.scale)
     points = {}

@@ -19,7 +19,7 @@ def way_of(client: VirtualClient) -> Recovery:
 
 
 def titled(client: VirtualClient, monkeypatch: pytest.MonkeyPatch, title: str) -> None:
-    """From here on the window says that in a world, and on other screens what it says there."""
+    """Make the window say that in a world from here on, and on other screens what it says there."""
     says = type(client.display).title
 
     def title_now() -> str:
@@ -31,7 +31,7 @@ def titled(client: VirtualClient, monkeypatch: pytest.MonkeyPatch, title: str) -
 
 
 @pytest.mark.parametrize("screen", ["title", "worlds", "servers", "disconnected"])
-def test_from_a_server_these_screens_lead_nowhere_and_nothing_on_them_is_clicked(
+def test_after_leaving_a_server_nothing_on_these_screens_is_clicked(
     screen: ScreenName, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     client = VirtualClient()

@@ -69,7 +69,7 @@ class Played:
 
 
 def soon(is_so: Callable[[], bool], patience_s: float = SOON_S) -> bool:
-    """Whether it comes true before long."""
+    """Return whether it comes true before long."""
     end = time.monotonic() + patience_s
     while not is_so():
         if time.monotonic() > end:
@@ -88,7 +88,7 @@ def connected(env: dict[str, str]) -> Iterator[Display]:
 
 
 def is_game(window: Any) -> bool:
-    """Whether a window has the game's title. GLFW has an invisible one beside it, without a title."""
+    """Return whether a window has the game's title. GLFW has an invisible one beside it, without a title."""
     return str(window.get_wm_name() or "").startswith("Minecraft")
 
 
@@ -111,7 +111,7 @@ def test_its_text_is_that_of_the_game_to_the_dot(played: Played) -> None:
         assert soon(is_read)
 
 
-def test_its_debug_screen_names_its_own_frames_and_size(tmp_path: Path, display: dict[str, str]) -> None:
+def test_the_rehearsals_debug_screen_names_its_own_frames_and_size(tmp_path: Path, display: dict[str, str]) -> None:
     with open_rehearsal(display, tmp_path, "--fps", "37") as rehearsal, connected(display) as connection:
         hands = Played(rehearsal, connection)
         for size in ((854, 480), (1023, 767)):
@@ -192,25 +192,25 @@ def test_f3_and_c_copies_to_the_real_clipboard(played: Played, monkeypatch: pyte
     assert soon(lambda: open_clipboard().read().startswith("/execute in minecraft:overworld run tp @s 0.50 64.00 0.50"))
 
 
-def test_it_ends_when_its_window_is_closed(played: Played) -> None:
+def test_a_rehearsal_ends_when_its_window_is_closed(played: Played) -> None:
     played.close()
     assert played.rehearsal.process.wait(SOON_S) == 0
 
 
-def test_it_ends_in_one_line_when_its_process_is_ended(played: Played) -> None:
+def test_a_rehearsal_ends_in_one_line_when_its_process_is_ended(played: Played) -> None:
     played.rehearsal.process.terminate()
     assert played.rehearsal.process.wait(SOON_S) == 128 + 15
     assert played.rehearsal.log.read_text().splitlines()[-1] == "mc-nested: stopped"
 
 
-def test_a_second_one_is_refused(played: Played, tmp_path: Path) -> None:
+def test_a_second_rehearsal_window_is_refused(played: Played, tmp_path: Path) -> None:
     other = tmp_path / "other"
     other.mkdir()
     with pytest.raises(RuntimeError, match="a window of Minecraft, or another rehearsal, is open: close it first"):
         open_rehearsal(played.rehearsal.env, other).__enter__()
 
 
-def test_of_several_that_start_at_the_same_moment_one_opens(display: dict[str, str], tmp_path: Path) -> None:
+def test_of_rehearsals_that_start_at_the_same_moment_one_opens(display: dict[str, str], tmp_path: Path) -> None:
     env = {**display, "PYTHONPATH": str(ROOT)}
     command = [sys.executable, "-m", "mc_nested.cli", "rehearse"]
     both = [
@@ -241,7 +241,7 @@ def test_of_several_that_start_at_the_same_moment_one_opens(display: dict[str, s
             process.communicate()
 
 
-def test_a_display_without_opengl_is_one_line(tmp_path: Path, window_programs: None) -> None:  # noqa: ARG001
+def test_a_display_without_opengl_is_a_one_line_error(tmp_path: Path, window_programs: None) -> None:  # noqa: ARG001
     with (
         open_display(has_opengl=False) as env,
         pytest.raises(RuntimeError, match=r"this display offers no OpenGL 3\.3"),
@@ -249,7 +249,7 @@ def test_a_display_without_opengl_is_one_line(tmp_path: Path, window_programs: N
         open_rehearsal(env, tmp_path).__enter__()
 
 
-def test_iconified_and_brought_back_it_plays_on(tmp_path: Path, window_programs: None) -> None:  # noqa: ARG001
+def test_a_minimised_window_plays_on_when_it_is_brought_back(tmp_path: Path, window_programs: None) -> None:  # noqa: ARG001
     with (
         open_display(has_window_manager=True) as env,
         open_rehearsal(env, tmp_path) as rehearsal,

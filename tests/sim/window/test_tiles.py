@@ -10,7 +10,7 @@ SIDES = st.tuples(st.integers(-20, 90), st.integers(-20, 90)).map(sorted)
 
 
 def covered(rects: list[Rect]) -> np.ndarray[tuple[int, ...], np.dtype[np.int_]]:
-    """How many of the triangles' pairs lie over each pixel."""
+    """Return how many of the triangles' pairs lie over each pixel."""
     counts = np.zeros((SIZE[1], SIZE[0]), int)
     pairs = triangles(rects, SIZE).reshape(-1, 6, 2)
     for pair in (pairs - (-1, 1)) / (1, -1) * SIZE / 2:
@@ -35,9 +35,9 @@ def test_every_pixel_of_a_rectangle_is_covered_once_and_no_tile_without_one(side
             assert counts[tile].any() == wanted[tile].any()
 
 
-def test_nothing_is_covered_by_no_rectangle() -> None:
+def test_without_rectangles_nothing_is_covered() -> None:
     assert triangles([], SIZE).shape == (0, 2)
 
 
-def test_the_whole_window_is_one_run_a_row() -> None:
+def test_a_rectangle_over_the_whole_window_is_one_run_a_row() -> None:
     assert len(triangles([(0, 0, *SIZE)], SIZE)) == 6 * 4

@@ -12,7 +12,7 @@ FILL_LIMIT = 32768
 
 
 def fill(realm: Realm, words: list[str]) -> str:
-    """``/fill x1 y1 z1 x2 y2 z2 block [keep]``; 1.12 has a number after the block. ``keep`` fills air alone."""
+    """Do ``/fill x1 y1 z1 x2 y2 z2 block [keep]``; 1.12 has a number after the block. ``keep`` fills only air."""
     low, high = block_position(realm, words[:3]), block_position(realm, words[3:6])
     name = block_name(realm, words[6])
     count = 1
@@ -35,7 +35,7 @@ def fill(realm: Realm, words: list[str]) -> str:
 
 
 def setblock(realm: Realm, words: list[str]) -> str:
-    """``/setblock x y z block``."""
+    """Do ``/setblock x y z block``."""
     x, y, z = block = block_position(realm, words[:3])
     new = realm.edition.since(1, 13)
     if not realm.world.put(block, block_name(realm, words[3])):
@@ -51,7 +51,7 @@ Run = Callable[[Realm, list[str]], str]
 
 
 def clone(realm: Realm, words: list[str]) -> str:
-    """``/clone x1 y1 z1 x2 y2 z2 x y z``: copy a region; x y z is the lowest corner of the copy."""
+    """Do ``/clone x1 y1 z1 x2 y2 z2 x y z``: copy a region; x y z is the lowest corner of the copy."""
     low, high, other = _regions(realm, words)
     size = [high[axis] - low[axis] for axis in range(3)]
     if all(abs(low[axis] - other[axis]) <= size[axis] for axis in range(3)):
@@ -65,7 +65,7 @@ def clone(realm: Realm, words: list[str]) -> str:
 
 
 def testforblocks(realm: Realm, words: list[str]) -> str:
-    """1.12: ``/testforblocks x1 y1 z1 x2 y2 z2 x y z``."""
+    """Do 1.12's ``/testforblocks x1 y1 z1 x2 y2 z2 x y z``."""
     low, high, other = _regions(realm, words)
     if not _are_alike(realm, low, high, other):
         raise CommandRefusedError("Source and destination are not identical")
@@ -92,7 +92,7 @@ def execute(realm: Realm, words: list[str], run: Run) -> str:
 
 
 def _condition(realm: Realm, words: list[str]) -> tuple[bool, list[str]]:
-    """Whether a condition on blocks holds, and the words after it."""
+    """Return whether a condition on blocks holds, and the words after it."""
     if words[0] == "blocks":
         holds = _are_alike(realm, *_regions(realm, words[1:10]))
         if words[10] not in ("all", "masked"):
@@ -106,7 +106,7 @@ def _condition(realm: Realm, words: list[str]) -> tuple[bool, list[str]]:
 
 
 def _regions(realm: Realm, words: list[str]) -> tuple[Block, Block, Block]:
-    """The lowest and highest corner of one region, and the lowest of another of the same size."""
+    """Return the lowest and highest corner of one region, and the lowest of another of the same size."""
     one, two, other = (block_position(realm, words[first : first + 3]) for first in (0, 3, 6))
     low = (min(one[0], two[0]), min(one[1], two[1]), min(one[2], two[2]))
     high = (max(one[0], two[0]), max(one[1], two[1]), max(one[2], two[2]))

@@ -41,13 +41,13 @@ def run(line: str, realm: Realm) -> list[Answer]:
 
 
 def _command(name: str, realm: Realm) -> _Command | None:
-    """The command of that name, if this version has it."""
+    """Return the command of that name, if this version has it."""
     name = name.removeprefix("minecraft:")
     return _COMMANDS.get(name) if _is_known(name, realm) else None
 
 
 def _has_unknown_inside(name: str, words: list[str], realm: Realm) -> bool:
-    """Whether an /execute of 1.13 or later runs what isn't a command: such a line is refused before it is run."""
+    """Return whether a line of 1.13 or later has an /execute of an unknown command: the game refuses to run it."""
     if name.removeprefix("minecraft:") != "execute" or not realm.edition.since(1, 13) or "run" not in words:
         return False
     inner = words[words.index("run") + 1 :]

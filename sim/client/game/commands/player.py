@@ -11,7 +11,7 @@ _SHORT_MODES: dict[str, Mode] = {"0": "survival", "s": "survival", "1": "creativ
 
 
 def teleport(realm: Realm, words: list[str]) -> str:
-    """``/tp [player] x y z [yaw pitch]``."""
+    """Do ``/tp [player] x y z [yaw pitch]``."""
     if words and not re.match(r"[-~\d.]", words[0]):
         words = after_player(realm, words)
     if len(words) not in (3, 5):
@@ -29,7 +29,7 @@ def teleport(realm: Realm, words: list[str]) -> str:
 
 
 def gamemode(realm: Realm, words: list[str]) -> str:
-    """``/gamemode creative``; before 1.13 also by its number or first letter."""
+    """Do ``/gamemode creative``; before 1.13 the mode may also be its number or first letter."""
     modes = _MODES if realm.edition.since(1, 13) else _MODES | _SHORT_MODES
     mode = modes.get(words[0])
     if mode is None:
@@ -39,7 +39,7 @@ def gamemode(realm: Realm, words: list[str]) -> str:
 
 
 def give(realm: Realm, words: list[str]) -> str:
-    """``/give player block [count]``."""
+    """Do ``/give player block [count]``."""
     block, *rest = after_player(realm, words)
     stack = Stack(block_name(realm, block), int(rest[0]) if rest else 1)
     realm.player.take(stack)
@@ -47,7 +47,7 @@ def give(realm: Realm, words: list[str]) -> str:
 
 
 def clear(realm: Realm, words: list[str]) -> str:
-    """``/clear [player]``."""
+    """Do ``/clear [player]``."""
     if words:
         after_player(realm, words)
     count = sum(stack.count for stack in realm.player.hotbar if stack)
@@ -58,7 +58,7 @@ def clear(realm: Realm, words: list[str]) -> str:
 
 
 def item(realm: Realm, words: list[str]) -> str:
-    """From 1.17 on: ``/item replace entity @s hotbar.0 with minecraft:stone 64``."""
+    """Do, from 1.17 on, ``/item replace entity @s hotbar.0 with minecraft:stone 64``."""
     if words[:2] != ["replace", "entity"] or words[4] != "with":
         raise ValueError(words)
     after_player(realm, words[2:3])
@@ -66,7 +66,10 @@ def item(realm: Realm, words: list[str]) -> str:
 
 
 def replaceitem(realm: Realm, words: list[str]) -> str:
-    """Before 1.17: ``/replaceitem entity @s hotbar.0 minecraft:stone 64``; in 1.12 ``slot.hotbar.0``, data behind."""
+    """Do, before 1.17, ``/replaceitem entity @s hotbar.0 minecraft:stone 64``.
+
+    In 1.12 the slot is ``slot.hotbar.0``, and the data value stands behind.
+    """
     if words[0] != "entity":
         raise ValueError(words[0])
     after_player(realm, words[1:2])
@@ -74,7 +77,7 @@ def replaceitem(realm: Realm, words: list[str]) -> str:
 
 
 def effect(realm: Realm, words: list[str]) -> str:
-    """``/effect give player effect``, before 1.13 ``/effect player effect``. It changes nothing here."""
+    """Do ``/effect give player effect``, before 1.13 ``/effect player effect``. It changes nothing here."""
     if realm.edition.since(1, 13) and words[0] not in ("give", "clear"):
         raise ValueError(words[0])
     if words[0] == "clear":
@@ -83,7 +86,7 @@ def effect(realm: Realm, words: list[str]) -> str:
 
 
 def kill(realm: Realm, words: list[str]) -> str:
-    """``/kill @e[...]``: there are no entities."""
+    """Do ``/kill @e[...]``: there are no entities."""
     if words and words[0].startswith("@e"):
         raise CommandRefusedError("No entity was found")
     raise ValueError(realm.player_name)

@@ -19,7 +19,7 @@ _RULES = {
 
 
 def gamerule(realm: Realm, words: list[str]) -> str:
-    """``/gamerule name value``."""
+    """Do ``/gamerule name value``."""
     name, value = words[0].removeprefix("minecraft:"), words[1]
     known = _RULES.values() if realm.edition.since(1, 21, 11) else _RULES
     if name not in known or not (value in ("true", "false") or value.isdigit()):
@@ -31,7 +31,7 @@ def gamerule(realm: Realm, words: list[str]) -> str:
 
 
 def time(realm: Realm, words: list[str]) -> str:
-    """``/time set noon``, or a number of ticks."""
+    """Do ``/time set noon``, or a number of ticks."""
     if words[0] != "set":
         raise ValueError(words[0])
     realm.day_time = _TIMES[words[1]] if words[1] in _TIMES else int(words[1])
@@ -39,12 +39,12 @@ def time(realm: Realm, words: list[str]) -> str:
 
 
 def weather(realm: Realm, words: list[str]) -> str:
-    """``/weather clear``. It changes nothing here."""
+    """Do ``/weather clear``. It changes nothing here."""
     if words[0] not in ("clear", "rain", "thunder"):
         raise ValueError(words[0])
     return f"Set the weather to {words[0]}" if realm.edition.since(1, 13) else f"Changing to {words[0]} weather"
 
 
 def difficulty(_realm: Realm, words: list[str]) -> str:
-    """``/difficulty peaceful``. It changes nothing here."""
+    """Do ``/difficulty peaceful``. It changes nothing here."""
     return f"The difficulty has been set to {words[0].capitalize()}"

@@ -17,14 +17,14 @@ class CommandRefusedError(Exception):
 
 
 def after_player(realm: Realm, words: list[str]) -> list[str]:
-    """The words after the first one, which must name the only player."""
+    """Return the words after the first one, which must name the only player."""
     if words[0] not in (*_SELF, realm.player_name):
         raise CommandRefusedError("No player was found")
     return words[1:]
 
 
 def coordinate(word: str, own: float, *, centred: bool = False) -> float:
-    """A coordinate or an angle; ``~`` is relative to ``own``."""
+    """Return a coordinate or an angle; ``~`` is relative to ``own``."""
     if word.startswith("~"):
         return own + float(word[1:] or 0)
     # A whole number is moved to the block's middle, except for the height (FACTS: Commands).
@@ -32,7 +32,7 @@ def coordinate(word: str, own: float, *, centred: bool = False) -> float:
 
 
 def block_position(realm: Realm, words: list[str]) -> Block:
-    """The block that three words name; ``~`` is relative to the player's."""
+    """Return the block that three words name; ``~`` is relative to the player's."""
     x, y, z = (
         own + int(word[1:] or 0) if word.startswith("~") else int(word)
         for word, own in zip(words, block_of(realm.player.feet), strict=True)
@@ -41,7 +41,7 @@ def block_position(realm: Realm, words: list[str]) -> Block:
 
 
 def block_name(realm: Realm, word: str) -> str:
-    """The block's name without namespace, if this version has such a block."""
+    """Return the block's name without namespace, if this version has such a block."""
     name = word.removeprefix("minecraft:")
     if name not in _ALWAYS | (_SINCE_1_13 if realm.edition.since(1, 13) else _BEFORE_1_13):
         raise CommandRefusedError(f"Unknown block type '{word}'")
@@ -49,5 +49,5 @@ def block_name(realm: Realm, word: str) -> str:
 
 
 def display_name(block: str) -> str:
-    """A block's name as answers show it."""
+    """Return a block's name as answers show it."""
     return {"planks": "Oak Wood Planks"}.get(block, block.replace("_", " ").title())

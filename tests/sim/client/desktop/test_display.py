@@ -19,7 +19,7 @@ PLAIN = View(MenuState("world"), (0, 64, 0))
 
 
 def moved(x: int) -> View:
-    """A view whose world is shifted by 7 pixels a block."""
+    """Return a view whose world is shifted by 7 pixels a block."""
     return View(MenuState("world"), (x, 64, 0))
 
 
@@ -42,7 +42,7 @@ class Shown:
         return bool(np.array_equal(self.display.grab(), other.grab(view)))
 
 
-def test_it_describes_its_window() -> None:
+def test_the_display_says_its_windows_title_size_and_focus() -> None:
     shown = Shown()
     assert shown.display.size() == SIZE
     assert shown.display.title() == "Minecraft 1.20.1"

@@ -30,7 +30,7 @@ class Typed:
         self.keyboard = DesktopKeyboard(self.sender)
 
     def held(self) -> set[str]:
-        """The keys that the game takes for down."""
+        """Return the keys that the game takes for down."""
         self.clock.sleep(0.01)
         return self.game.keys.physical
 
@@ -105,7 +105,7 @@ def test_to_1_12_a_key_is_what_the_layout_makes_there(layout: str, taken: dict[s
         assert typed.held() == set()
 
 
-def test_to_1_12_a_key_whose_symbol_lwjgl_2_does_not_have_is_none() -> None:
+def test_to_1_12_a_key_whose_symbol_lwjgl_2_lacks_does_nothing() -> None:
     typed = Typed("ru", is_lwjgl_2=True)
     typed.sender.send(PLACES["w"], is_down=True)
     assert typed.held() == set()

@@ -144,7 +144,7 @@ def test_an_event_that_has_arrived_is_taken_when_asked_for_and_once() -> None:
     assert desktop.names() == ["w"]
 
 
-def test_what_was_written_is_read() -> None:
+def test_written_options_are_read_back() -> None:
     clipboard = VirtualClipboard()
     assert clipboard.read() == ""
     clipboard.write("text")

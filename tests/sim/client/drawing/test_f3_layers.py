@@ -105,7 +105,7 @@ def painted(screen: F3Screen, world: int = 0) -> Frame:
 
 
 def ink(frame: Frame, colour: tuple[int, int, int], rows: tuple[int, int]) -> list[int]:
-    """The columns in which a colour stands between two rows."""
+    """Return the columns in which a colour stands between two rows."""
     first, behind = rows
     found = (frame[first:behind] == colour[::-1]).all(2)
     return [int(column) for column in np.flatnonzero(found.any(0))]

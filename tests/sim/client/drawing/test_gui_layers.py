@@ -34,7 +34,7 @@ def view(f3: F3Screen | None = None, slot: int = 0, *stacks: Stack) -> View:
 
 
 def bounds(mask: np.ndarray) -> tuple[int, int, int, int]:
-    """Left, top, right, bottom of what is set; the last two are outside."""
+    """Return left, top, right, bottom of what is set; the last two are outside."""
     rows, columns = np.flatnonzero(mask.any(1)), np.flatnonzero(mask.any(0))
     return int(columns[0]), int(rows[0]), int(columns[-1]) + 1, int(rows[-1]) + 1
 

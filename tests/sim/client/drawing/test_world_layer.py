@@ -60,7 +60,7 @@ def test_a_block_is_seen_where_it_stands_in_its_colour_with_the_light_of_its_sid
     assert picture[82, 117].tolist() != shade("stone", 0.8)
 
 
-def test_west_is_to_the_right_of_who_looks_south() -> None:
+def test_west_is_to_the_right_of_a_player_who_looks_south() -> None:
     picture = drawn(sight({(-1, 64, 3): "stone"}))
     assert picture[82, 125].tolist() == shade("stone", 0.8)
     assert picture[82, 75].tolist() == shade("bedrock", 1.0)

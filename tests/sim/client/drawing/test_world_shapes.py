@@ -82,7 +82,7 @@ ANGLES = st.tuples(st.floats(-180, 180), st.floats(-89, 89))
 
 
 def seen(point: tuple[float, float, float], yaw: float, pitch: float) -> NDArray[np.float64]:
-    """Where a point is drawn, for an eye at (0.5, 1.62, 0.5) in a window twice as wide as high: -1 to 1."""
+    """Return where a point is drawn, for an eye at (0.5, 1.62, 0.5) in a window twice as wide as high: -1 to 1."""
     camera = projection(200, 100) @ view((0.5, 1.62, 0.5), yaw, pitch)
     x, y, z, w = camera @ np.array([*point, 1.0])
     assert w > 0, "it lies in front"
@@ -90,7 +90,7 @@ def seen(point: tuple[float, float, float], yaw: float, pitch: float) -> NDArray
 
 
 @given(ANGLES, st.floats(0.1, 50.0))
-def test_what_is_looked_at_is_in_the_middle(angles: tuple[float, float], away: float) -> None:
+def test_the_point_looked_at_is_in_the_middle(angles: tuple[float, float], away: float) -> None:
     x, y, z = (own + away * part for own, part in zip((0.5, 1.62, 0.5), direction(*angles), strict=True))
     assert seen((x, y, z), *angles)[:2] == pytest.approx((0, 0), abs=1e-3)
 

@@ -86,7 +86,7 @@ def test_a_file_replaces_everything_and_an_absent_one_nothing() -> None:
         ('{"DataVersion":"x","custom":{"minecraft:fps":"inF3"}}', MIDDLE, {"fps": "inOverlay"}),
     ],
 )
-def test_the_word_for_f3_alone_is_the_versions(text: str, edition: Edition, expected: object) -> None:
+def test_the_word_for_f3_alone_is_that_of_the_version(text: str, edition: Edition, expected: object) -> None:
     assert parse_profile(text, edition) == expected
 
 
@@ -120,5 +120,5 @@ def test_a_file_that_cannot_be_read_counts_as_the_default(text: str) -> None:
 
 
 @given(st.text() | st.recursive(st.none() | st.booleans() | st.text(), st.lists).map(json.dumps))
-def test_no_file_is_too_broken(text: str) -> None:
+def test_any_text_of_a_debug_profile_leads_to_shown_entries(text: str) -> None:
     assert shown_entries(parse_profile(text, NEW), NEW, has_f3=True) is not None

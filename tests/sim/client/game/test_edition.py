@@ -23,7 +23,7 @@ def test_each_version_has_the_layout_of_its_row(version: str, layout: Layout) ->
     assert Edition(version).layout == layout
 
 
-def test_a_version_is_since_itself_and_older_ones() -> None:
+def test_a_version_is_at_least_itself_and_older_versions() -> None:
     edition = Edition("1.16.4")
     assert edition.since(1, 16)
     assert edition.since(1, 16, 4)

@@ -56,7 +56,7 @@ def test_a_fluids_and_an_entitys_box_have_the_blocks_labels() -> None:
     assert "Coordinates: 0.50, 64.00, 2.50" in lines
 
 
-def test_nothing_looked_at_is_no_box() -> None:
+def test_without_a_block_looked_at_there_is_no_box_for_it() -> None:
     assert not [column for column in titles(dataclasses.replace(SCREEN, target=None)) if "Looking At Block" in column]
 
 

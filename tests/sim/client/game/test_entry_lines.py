@@ -78,7 +78,7 @@ def test_two_entries_stand_beside_each_other_at_the_top_without_f3() -> None:
     assert with_f3[3:5] == ["", "Debug charts: [F3+1] Profiler hidden; [F3+2] FPS + TPS hidden;"]
 
 
-def test_nothing_is_on_so_nothing_is_shown() -> None:
+def test_a_profile_that_switches_nothing_on_shows_nothing() -> None:
     assert columns(entries=()) == ([], [])
 
 

@@ -20,7 +20,7 @@ def game(
     version: str = "1.20.1",
     options: GameOptions | None = None,
 ) -> VirtualGame:
-    """A player in the middle of the block at 0, 0, who looks south at the floor ahead, with two stones in hand."""
+    """Return a game whose player is in the middle of block 0, 0, looks south at the floor, and holds two stones."""
     player = Player((0.5, 64.0, z), 0.0, pitch, mode=mode)
     player.hotbar[0] = Stack("stone", 2)
     return VirtualGame(Realm(Edition(version), VirtualWorld(64, "dirt"), player), options=options)

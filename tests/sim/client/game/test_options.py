@@ -13,7 +13,7 @@ def test_without_lines_the_options_are_the_games_own() -> None:
     assert parse_options([], NEWEST) == GameOptions()
 
 
-def test_each_kind_of_value_is_read() -> None:
+def test_an_option_of_each_type_is_read() -> None:
     lines = ["guiScale:3", "debugGuiScale:-1", "toggleUse:true", "textBackgroundOpacity:0.25", "chatVisibility:2"]
     assert parse_options(lines, NEWEST) == GameOptions(
         gui_scale=3, debug_gui_scale=-1, toggle_use=True, text_background_opacity=0.25, chat_visibility=2

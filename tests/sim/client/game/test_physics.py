@@ -34,7 +34,7 @@ ticks = st.integers(1, 60)
 
 
 def covered(held: int, push: float) -> float:
-    """The same way as two geometric series: setting off, then coasting while the step is 0.003 or more."""
+    """Return the same way as two geometric series: setting off, then coasting while the step is 0.003 or more."""
     setting_off = sum(push * (1 - INERTIA**tick) / (1 - INERTIA) for tick in range(1, held + 1))
     last = push * (1 - INERTIA**held) / (1 - INERTIA)
     coasting = math.floor(math.log(0.003 / last) / math.log(INERTIA))
@@ -164,13 +164,13 @@ def test_a_walking_player_walks_over_an_edge() -> None:
 
 
 def gaits_of(keys: Sequence[str], version: str = "1.20.1", may_sprint: bool = True) -> list[Gait]:
-    """The gaits of ticks in which these keys are down: any of w and s (for sneak)."""
+    """Return the gaits of ticks in which these keys are down: any of w and s (for sneak)."""
     gaits = Gaits(Edition(version))
     return [gaits.tick(is_forward="w" in down, sneaks="s" in down, may_sprint=may_sprint) for down in keys]
 
 
 def twice(apart: int) -> list[str]:
-    """Forward down in tick 0, and in two ticks from ``apart`` on."""
+    """Hold forward in tick 0, and in two ticks from ``apart`` on."""
     return ["w", *[""] * (apart - 1), "w", "w"]
 
 
@@ -192,7 +192,7 @@ def test_one_long_press_never_sprints() -> None:
     assert set(gaits_of(["w"] * 20)) == {"walk"}
 
 
-def test_whoever_may_not_sprint_walks() -> None:
+def test_a_player_who_may_not_sprint_walks() -> None:
     assert set(gaits_of(twice(3), may_sprint=False)) == {"walk"}
 
 
@@ -223,17 +223,17 @@ def test_players_are_0_6_wide_and_1_8_high(other: Vector, is_touched: bool) -> N
     assert touches((0.0, 64.0, 0.0), other, HEIGHT) == is_touched
 
 
-def test_a_way_into_somebody_is_not_gone_and_the_other_way_is() -> None:
+def test_a_step_into_another_player_is_made_along_the_free_axis_alone() -> None:
     before, after = (0.0, 64.0, 0.0), (0.5, 64.0, 0.1)
     assert kept_apart(before, after, [(1.0, 64.0, 0.0)], HEIGHT) == (0.0, 64.0, 0.1)
     assert kept_apart(before, after, [(5.0, 64.0, 0.0)], HEIGHT) == after
 
 
-def test_who_is_in_somebody_may_leave() -> None:
+def test_a_player_who_overlaps_another_may_move_out() -> None:
     assert kept_apart((0.0, 64.0, 0.0), (0.1, 64.0, 0.0), [(0.2, 64.0, 0.0)], HEIGHT) == (0.1, 64.0, 0.0)
 
 
-def test_a_player_walks_up_to_another_and_no_further() -> None:
+def test_a_player_is_stopped_by_another_player() -> None:
     walker, _ = two((0.5, 64.0, 0.5), (0.5, 64.0, 3.5))
     walker.keys.press("w")
     for _ in range(60):
@@ -262,6 +262,6 @@ def test_no_block_is_placed_into_another_player() -> None:
     assert other.realm.world.built() == {(0, 64, 1): "stone"}, "the other sees it, it is the same world"
 
 
-def test_alone_there_are_no_others() -> None:
+def test_a_single_player_has_no_others_in_the_world() -> None:
     realm = Realm(Edition("1.20.1"), VirtualWorld(64, "dirt"), Player((0.5, 64.0, 0.5)))
     assert realm.others() == []

@@ -39,7 +39,7 @@ def test_the_words_after_the_player_remain(word: str) -> None:
     assert after_player(realm(), [word, "a", "b"]) == ["a", "b"]
 
 
-def test_nobody_else_is_a_player() -> None:
+def test_a_command_for_another_player_is_refused() -> None:
     with pytest.raises(CommandRefusedError, match="No player was found"):
         after_player(realm(), ["Somebody", "a"])
 
