@@ -58,7 +58,7 @@ def test_a_pack_with_another_hash_is_refused_and_not_unpacked(tmp_path: Path, pr
 def test_a_pack_that_leads_out_of_its_folder_is_refused(tmp_path: Path, programs: Path) -> None:
     pack = write_pack(tmp_path / "thing.tgz", {"package/public/../../outside": b"x"})
     npm_that_packs(programs, tmp_path / "thing.tgz")
-    with pytest.raises(parts.MissingError, match="leads out of its folder"):
+    with pytest.raises(MissingError, match="leads out of its folder"):
         parts.fetch(pack, tmp_path / "cache", silent, tmp_path / "log")
     assert not list(tmp_path.rglob("outside"))
 
