@@ -100,7 +100,7 @@ class Program:
     """One end in a process of its own, and what it says."""
 
     def __init__(self, words: list[str], folder: Path, env: dict[str, str]) -> None:
-        self._log = folder / f"{words[0]}.log"
+        self._log = folder / f"{words[1].strip('-')}.log"
         command = [*WITH_THIS_PROCESS, sys.executable, "-m", "mc_nested.cli", *words]
         env = {**env, "PYTHONPATH": str(ROOT)}
         with self._log.open("wb") as log:

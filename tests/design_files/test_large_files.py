@@ -28,7 +28,7 @@ MOST_MB, MOST_S = 800, 30
 READ = """
 import resource, sys, time
 from pathlib import Path
-from mc_nested.design_files import litematic, load, picture
+from mc_nested.design_files import litematic, load, png
 from mc_nested.errors import ScenarioError
 
 def megabytes():
