@@ -15,8 +15,8 @@ from mc_nested.live.devices import Devices, Frame
 from mc_nested.live.input.input_controller import InputController
 from mc_nested.live.menus.click_points import ClickPoint
 from mc_nested.live.menus.wait_for_player import wait_for_front
-from mc_nested.live.opening import Opening
 from mc_nested.live.profile.tables import Profile
+from mc_nested.live.session import Opening
 
 
 @dataclass(frozen=True)

@@ -1,5 +1,6 @@
-"""Names for NumPy arrays, by dtype."""
+"""Types of NumPy arrays, by dtype, and states as arrays by name: each part's are saved with its name in front."""
 
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
@@ -17,3 +18,13 @@ Integers = NDArray[np.integer[Any]]
 
 Arrays = dict[str, NDArray[Any]]
 """Arrays by name: a saved state, or a part of one."""
+
+
+def part_of(state: Mapping[str, NDArray[Any]], part: str) -> Arrays:
+    """Return the entries of a saved state that belong to one of its parts, under the part's own names."""
+    return {name.removeprefix(f"{part}."): kept for name, kept in state.items() if name.startswith(f"{part}.")}
+
+
+def named_for(part: str, state: Mapping[str, NDArray[Any]]) -> Arrays:
+    """Return a part's entries under the names that ``part_of`` finds them by."""
+    return {f"{part}.{name}": kept for name, kept in state.items()}

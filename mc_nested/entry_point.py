@@ -144,8 +144,7 @@ def _live(
     scenario: Scenario, profile: str, record: str | Path | None, open_live: OpenLive | None, *, server_allowed: bool
 ) -> AbstractContextManager[tuple[Game, Any]]:
     # Imported here: who learns in the simulator needs nothing that reads a screen.
-    from mc_nested.live.opening import Opening
-    from mc_nested.live.session import open_live_game
+    from mc_nested.live.session import Opening, open_live_game
 
     opening = Opening(profile, _say, f"env-{scenario.name}", record, is_server_allowed=server_allowed)
     return (open_live or open_live_game)(scenario, opening)

@@ -19,7 +19,7 @@ START_S = 30.0
 
 
 class TruthReader:
-    """The world as the client says it is (sim/window/truth_file.py)."""
+    """The world as the client says it is (sim/window/rehearsal.py)."""
 
     def __init__(self, path: Path) -> None:
         self._path = path

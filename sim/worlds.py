@@ -11,9 +11,8 @@ from mc_nested.arena.vector import ArenaVectorEnv
 from mc_nested.errors import RunError, UserError
 from mc_nested.learn.dqn.engines import SCREEN
 from mc_nested.live.devices import Display
-from mc_nested.live.opening import Opening
 from mc_nested.live.screen_arenas import NEEDS_A_WINDOW, ScreenArenas
-from mc_nested.live.session import open_live_game
+from mc_nested.live.session import Opening, open_live_game
 from sim.grid import GridGame, GridVectorEnv
 
 

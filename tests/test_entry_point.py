@@ -20,8 +20,8 @@ from mc_nested.arena.action import Action
 from mc_nested.arena.builder import build
 from mc_nested.arena.scenario_file import load_scenario
 from mc_nested.errors import LiveError, ProfileError, RecordingError, ScenarioError, UserError
-from mc_nested.live.opening import Opening
 from mc_nested.live.recording.replayed_run import replay
+from mc_nested.live.session import Opening
 from sim.client.client import VirtualClient
 from sim.grid import GridGame, GridVectorEnv
 from tests.arena.env_contract import check_env_contract

@@ -32,7 +32,7 @@ from mc_nested.cli.options import (
 )
 from mc_nested.cli.view import StepViewOption, viewed
 from mc_nested.errors import UserError
-from mc_nested.live.opening import Opening
+from mc_nested.live.session import Opening
 from mc_nested.view.publisher import Publisher
 
 DOCTOR = "looks at this computer and at the game, as mc-nested doctor does"

@@ -19,10 +19,10 @@ from mc_nested.learn.games.episode import PlayedEpisode
 from mc_nested.learn.games.games_trainer import GamesTrainer
 from mc_nested.learn.runs.run_folder import RunFolder
 from mc_nested.workers.cluster.address import SchedulerAddress, scheduler_address
+from mc_nested.workers.cluster.cluster_workers import counted
 from mc_nested.workers.cluster.connection import connected
-from mc_nested.workers.cluster.workers_seen import counted
 from mc_nested.workers.games.dask_games import Answered, DaskGames, GameEvent, Joined, NameTaken, Unreachable
-from mc_nested.workers.games.order import GameAnswer, GameOrder
+from mc_nested.workers.games.messages import GameAnswer, GameSetup
 from sim.worlds import Backend
 
 if TYPE_CHECKING:  # the cluster extra's
@@ -195,8 +195,8 @@ def games_at_play(
         raise UserError(f"games teach one trial together, and this training has {config.trials}: leave out --trials")
     agent = folder.new_agent(1, config.preset.device)
     trainer = GamesTrainer(folder.scenario, agent, config.preset, config.seed, config.stop_at_optimum)
-    order = GameOrder(config.backend, folder.scenario, config.agent, config.preset, config.seed)
-    with connected(cluster) as client, _alone(client, cluster, interrupt, say), DaskGames(client, order) as games:
+    setup = GameSetup(config.backend, folder.scenario, config.agent, config.preset, config.seed)
+    with connected(cluster) as client, _alone(client, cluster, interrupt, say), DaskGames(client, setup) as games:
         yield GamesAtPlay(trainer, games, folder.scenario)
 
 

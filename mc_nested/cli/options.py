@@ -15,8 +15,8 @@ from mc_nested.design_files.load import Loaded, load_any_scenario
 from mc_nested.errors import UserError
 from mc_nested.learn.preset import shipped_presets
 from mc_nested.live.action_log import FailureBudget
-from mc_nested.live.opening import Opening
 from mc_nested.live.profile.arena import size_for
+from mc_nested.live.session import Opening
 from sim.worlds import Backend
 
 DEFAULT_PROFILE = "default"

@@ -13,7 +13,7 @@ from mc_nested.errors import DesktopError, LiveError, NotInFrontError
 from mc_nested.learn.runs.run_folder import RunFolder
 from mc_nested.learn.trainer import Trainer
 from mc_nested.live.action_log import FailureBudget
-from mc_nested.live.opening import Opening
+from mc_nested.live.session import Opening
 from mc_nested.view.publisher import Publisher
 from sim.grid import GridVectorEnv
 from sim.team_grid import team_arenas

@@ -16,7 +16,7 @@ from mc_nested.cli.output import FittingTable, JsonOption, Output, facts_table, 
 from mc_nested.errors import RunError
 from mc_nested.learn.agents import Agent
 from mc_nested.learn.evaluation import GreedyEpisode, play_greedily
-from mc_nested.learn.runs.folder_changes import delete_folder, rename_folder
+from mc_nested.learn.runs.folder_lock import delete_folder, rename_folder
 from mc_nested.learn.runs.run_folder import RunFolder
 from mc_nested.studies.run_facts import RunFacts, facts_of, runs_in
 from sim.grid import GridVectorEnv

@@ -14,16 +14,16 @@ from mc_nested.cli.interrupt import Stopped, catch_interrupts
 from mc_nested.cli.options import DEFAULT_PROFILE, ProfileOption, ServerOption, opening_of
 from mc_nested.cli.output import Output, QuietOption
 from mc_nested.errors import UserError
-from mc_nested.live.opening import OFF
 from mc_nested.live.profile.store import load_profile
 from mc_nested.live.screen_arenas import windows_of
+from mc_nested.live.session import OFF
 from mc_nested.workers.cluster.address import scheduler_address
 from mc_nested.workers.cluster.connection import check_installed
 from mc_nested.workers.cluster.keys import AUTHORITY_KEY, make_keys
 from mc_nested.workers.games.game_server import GameServer, OpenGame
-from mc_nested.workers.games.game_task import desk
 from mc_nested.workers.games.game_worker import GameWorker
-from mc_nested.workers.games.order import GameOrder
+from mc_nested.workers.games.mailbox import process_mailbox
+from mc_nested.workers.games.messages import GameSetup
 from sim.worlds import Backend, as_shown, open_arenas
 
 
@@ -55,22 +55,22 @@ def serve(  # noqa: PLR0913 - a Typer verb: a parameter for each option
     say = Output(quiet).note
 
     @contextmanager
-    def opens(order: GameOrder) -> Iterator[OpenGame]:
-        if order.backend != backend.value:
-            raise UserError(f"the learner asks for --backend {order.backend}, and this game is {backend.value}")
-        with open_arenas(backend, [order.scenario], opening, order.seed) as (arenas, log):
+    def opens(setup: GameSetup) -> Iterator[OpenGame]:
+        if setup.backend != backend.value:
+            raise UserError(f"the learner asks for --backend {setup.backend}, and this game is {backend.value}")
+        with open_arenas(backend, [setup.scenario], opening, setup.seed) as (arenas, log):
             if log is None or not isinstance(arenas, ArenaVectorEnv):
                 raise AssertionError("the simulator is not served")
             (window,) = windows_of(arenas)
-            view = order.new_agent().view_of(as_shown(arenas, order.preset.states), [order.scenario])
+            view = setup.new_agent().view_of(as_shown(arenas, setup.preset.states), [setup.scenario])
             yield OpenGame(view, log, window.devices.display.is_in_front, window.controller.check_stopped)
 
     with catch_interrupts() as interrupt:
         with GameWorker(address, name or socket.gethostname(), say):
             try:
-                GameServer(desk, opens, say, lambda: interrupt.requested).serve()
+                GameServer(process_mailbox, opens, say, lambda: interrupt.requested).serve()
             finally:
-                desk.close()
+                process_mailbox.close()
         raise Stopped("stopped: no key is held, and the learner goes on without this game")
 
 

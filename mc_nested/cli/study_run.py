@@ -1,20 +1,226 @@
-"""Train all jobs of a study that aren't finished, in processes here or on a cluster, and show how far they are."""
+"""Train all jobs of a study that aren't finished, in processes here or on a cluster, and show how far they are.
+
+The view has a bar, and each group's greedy scores.
+"""
 
 import os
-from collections.abc import Iterator
+import time
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import ExitStack, contextmanager
+from types import TracebackType
+
+from rich.console import Console, Group
+from rich.live import Live
+from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
+from rich.table import Column, Table
+from rich.text import Text
 
 from mc_nested.cli.cluster_options import workers_of
 from mc_nested.cli.interrupt import Stopped, catch_interrupts
-from mc_nested.cli.output import Output
-from mc_nested.cli.study_progress import StudyProgress, StudyStatus
+from mc_nested.cli.output import Output, print_line
 from mc_nested.errors import RunError
 from mc_nested.studies.folder import StudyFolder
+from mc_nested.studies.job import Job
+from mc_nested.studies.outcome import JobOutcome
 from mc_nested.studies.trial import Outcomes
 from mc_nested.workers.cluster.address import SchedulerAddress
 from mc_nested.workers.cluster.connection import connected
-from mc_nested.workers.executor import JobExecutor, train_jobs
+from mc_nested.workers.executor import JobEnded, JobExecutor, JobReport, train_jobs
 from mc_nested.workers.processes import JobProcesses
+
+REFRESH_S = 0.25
+"""No more often than an eye can follow."""
+
+LINE_EVERY_S = 30.0
+"""Seconds between two lines of text, if there is no terminal to show a bar."""
+
+MOST_ROWS = 10
+"""Groups shown at once."""
+
+MOST_COLUMNS = 8
+"""Scenarios shown side by side; of more, only how many runs have ended, and at the optimum."""
+
+
+class StudyStatus:
+    """Episodes, updates and recent scores of all jobs together.
+
+    Args:
+        jobs: all jobs, with the outcomes of those that were finished before.
+    """
+
+    def __init__(self, jobs: Iterable[tuple[Job, JobOutcome | None]]) -> None:
+        self._jobs: dict[str, Job] = {}
+        self._episodes: dict[str, int] = {}
+        self._updates: dict[str, int] = {}
+        self._updates_at_first: dict[str, int] = {}
+        self._scores: dict[tuple[str, str], dict[int, float]] = {}
+        self._ended: set[str] = set()
+        self.optimum: dict[str, float] = {}
+        """Each scenario's highest score, in the order of the scenarios."""
+        self.groups: list[str] = []
+        """Groups of which anything is known, the latest trained at the end."""
+        for job, outcome in jobs:
+            self._jobs[job.name] = job
+            self.optimum.update({scenario.name: scenario.optimum for scenario in job.scenarios})
+            if outcome:
+                self._episodes[job.name] = job.episodes
+                self._ended.add(job.name)
+                self._take(job, [run.evaluations[-1].score for run in outcome.runs])
+        self.episodes_before = self.episodes
+        """Episodes that were done before the first report."""
+
+    @property
+    def total(self) -> int:
+        """Episodes of the whole study."""
+        return sum(job.episodes for job in self._jobs.values())
+
+    @property
+    def episodes(self) -> int:
+        """Episodes that are done."""
+        return sum(self._episodes.values())
+
+    @property
+    def updates(self) -> int:
+        """Updates since each job's first report."""
+        return sum(self._updates.values()) - sum(self._updates_at_first.values())
+
+    def hear(self, heard: JobReport | JobEnded) -> None:
+        """Record a message of a process."""
+        job = self._jobs[heard.job]
+        if isinstance(heard, JobEnded):
+            if heard.finished:
+                self._episodes[job.name] = job.episodes
+                self._ended.add(job.name)
+            return
+        if job.name not in self._updates:
+            self._updates_at_first[job.name] = heard.updates
+            self.episodes_before += sum(heard.episodes)
+        self._episodes[job.name] = sum(heard.episodes)
+        self._updates[job.name] = heard.updates
+        self._take(job, heard.scores)
+
+    def score(self, group: str, scenario: str) -> float | None:
+        """Return the mean of the last greedy scores of the runs that were evaluated."""
+        scores = self._scores.get((group, scenario), {})
+        return sum(scores.values()) / len(scores) if scores else None
+
+    def ended(self, group: str) -> tuple[int, int]:
+        """Return how many of a group's runs have ended, and how many there are."""
+        of_group = [(name, job.groups.count(group)) for name, job in self._jobs.items()]
+        return sum(runs for name, runs in of_group if name in self._ended), sum(runs for _, runs in of_group)
+
+    def at_optimum(self, group: str) -> int:
+        """Return how many of a group's runs were at their scenario's optimum in their last greedy episode."""
+        return sum(
+            score >= self.optimum[scenario]
+            for (own, scenario), scores in self._scores.items()
+            if own == group
+            for score in scores.values()
+        )
+
+    def _take(self, job: Job, scores: Iterable[float | None]) -> None:
+        self.groups = [group for group in self.groups if group not in job.groups] + list(dict.fromkeys(job.groups))
+        for group, scenario, trial, score in zip(job.groups, job.scenarios, job.trials, scores, strict=True):
+            if score is not None:
+                self._scores.setdefault((group, scenario.name), {})[trial] = score
+
+
+class StudyProgress:
+    """Shows a status on standard error.
+
+    Args:
+        what: what is being done, in one word.
+        status: what is shown.
+        console: where to show it; standard error unless given.
+        workers: says how many train, and what was lost; empty where there is nothing to say.
+    """
+
+    def __init__(
+        self,
+        what: str,
+        status: StudyStatus,
+        console: Console | None = None,
+        workers: Callable[[], str] = str,
+    ) -> None:
+        self._what = what
+        self._status = status
+        self._workers = workers
+        self._console = console or Console(stderr=True)
+        self._bar = Progress(
+            TextColumn(what),
+            BarColumn(bar_width=None),
+            TextColumn("{task.percentage:3.0f} %"),
+            TextColumn("{task.fields[figures]}"),
+            TimeRemainingColumn(table_column=Column(no_wrap=True)),
+            console=self._console,
+            expand=True,
+        )
+        self._task = self._bar.add_task(what, total=status.total, completed=status.episodes, figures="")
+        self._live = Live(console=self._console, auto_refresh=False, transient=True)
+        self._began = time.monotonic()
+        self._next = self._began
+
+    def __enter__(self) -> "StudyProgress":
+        if self._console.is_terminal:
+            self._live.start()
+        else:
+            self._next += LINE_EVERY_S
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, traceback: TracebackType | None
+    ) -> None:
+        if self._console.is_terminal:
+            self._live.stop()
+
+    def watch(self, heard: JobReport | JobEnded | None) -> None:
+        """Record a message of a process, and refresh the view if it is time."""
+        if heard is not None:
+            self._status.hear(heard)
+        now = time.monotonic()
+        if now < self._next:
+            return
+        if self._console.is_terminal:
+            self._next = now + REFRESH_S
+            self._bar.update(self._task, completed=self._status.episodes, figures=self._rate())
+            said = self._workers()
+            view = Group(self._bar, Text(said), self._table()) if said else Group(self._bar, self._table())
+            self._live.update(view, refresh=True)
+        else:
+            self._next = now + LINE_EVERY_S
+            print_line(self._console, self._line(now))
+
+    def _rate(self) -> str:
+        return f"{self._status.updates / max(time.monotonic() - self._began, 1e-9):,.0f} updates/s"
+
+    def _line(self, now: float) -> str:
+        status = self._status
+        done = status.episodes - status.episodes_before
+        left = f"{(now - self._began) / done * (status.total - status.episodes) / 60:.1f} min left" if done else ""
+        share = 100 * status.episodes / status.total
+        parts = (f"{share:.0f} % of {status.total:,} episodes", self._rate(), left, self._workers())
+        return f"{self._what}: " + "  ".join(part for part in parts if part)
+
+    def _table(self) -> Table:
+        status = self._status
+        if len(status.optimum) > MOST_COLUMNS:
+            return self._counts()
+        heads = [Text(f"{name} of {optimum:g}") for name, optimum in status.optimum.items()]
+        table = Table("recent score", *(Column(head, justify="right") for head in heads), box=None, padding=(0, 2))
+        for group in status.groups[-MOST_ROWS:]:
+            scores = [status.score(group, scenario) for scenario in status.optimum]
+            table.add_row(Text(group), *("" if score is None else f"{score:.1f}" for score in scores))
+        return table
+
+    def _counts(self) -> Table:
+        status = self._status
+        heads = (Column(head, justify="right") for head in ("ended", "at the optimum"))
+        table = Table("trials", *heads, box=None, padding=(0, 2))
+        for group in status.groups[-MOST_ROWS:]:
+            ended, runs = status.ended(group)
+            table.add_row(Text(group), f"{ended} of {runs}", str(status.at_optimum(group)))
+        return table
+
 
 MOST_JOBS = 256
 """More would only run out of memory."""

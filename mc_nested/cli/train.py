@@ -36,8 +36,8 @@ from mc_nested.cli.output import JsonOption, Output, QuietOption, prints
 from mc_nested.cli.output_folder import output_folder
 from mc_nested.cli.serve import keys as make_keys
 from mc_nested.cli.serve import serve
-from mc_nested.cli.training import HowToRun, run_training
 from mc_nested.cli.training_end import Trained
+from mc_nested.cli.training_loop import HowToRun, run_training
 from mc_nested.cli.view import ViewOption
 from mc_nested.errors import UserError
 from mc_nested.learn.agents import AGENT_SPECS

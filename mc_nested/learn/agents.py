@@ -22,7 +22,7 @@ from mc_nested.arena.env import BLOCKS_LEFT, highest_observation
 from mc_nested.arena.planes import FULL, PLANES, PlanesVectorEnv, common_size, shares, start_planes, with_material
 from mc_nested.arena.scenario import Scenario
 from mc_nested.arena.single import SingleAgentVectorEnv
-from mc_nested.arrays import Arrays, Bytes, Float64s, Int64s
+from mc_nested.arrays import Arrays, Bytes, Float64s, Int64s, named_for, part_of
 from mc_nested.errors import PresetError
 from mc_nested.learn.builders import Builders, check_builders
 from mc_nested.learn.dqn.engine import NetworkForm
@@ -31,7 +31,6 @@ from mc_nested.learn.dqn.replay import ReplayMark
 from mc_nested.learn.dqn.states import PlaneStates, States, StateSpace
 from mc_nested.learn.learner import CHOICE_NUMBERS, Learner, summed_by_run
 from mc_nested.learn.preset import Preset
-from mc_nested.learn.state_dict import named_for, part_of
 from mc_nested.learn.streams import initial_stream
 
 IMAGE = "image"

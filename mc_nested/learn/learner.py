@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mc_nested.arrays import Arrays, Bools, Float64s, Int64s
+from mc_nested.arrays import Arrays, Bools, Float64s, Int64s, named_for, part_of
 from mc_nested.learn.dqn.engine import Batch, UpdateRule
 from mc_nested.learn.dqn.engines import made_engine
 from mc_nested.learn.dqn.prioritized import Priorities
@@ -14,7 +14,6 @@ from mc_nested.learn.dqn.replay import FIRST_ROOM, Replay, Transitions
 from mc_nested.learn.dqn.self_imitation import BestEpisodes
 from mc_nested.learn.dqn.states import States
 from mc_nested.learn.preset import Imitation, Preset
-from mc_nested.learn.state_dict import named_for, part_of
 
 CHOICE_NUMBERS = 2
 """Random numbers per ε-greedy choice: whether to explore, and which action then."""

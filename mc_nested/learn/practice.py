@@ -1,7 +1,7 @@
 """Practice: what a preset makes of the steps that were done, and what it does before an episode.
 
 A preset names one of three (training.py: ``practice_of``): none but the paper's, which stores every step and updates
-from the replay, and explores by ε (Practice); excursions from the best episode (exploration/excursions.py); or a learnt
+from the replay, and explores by ε (Practice); excursions from the best episode (exploration/); or a learnt
 game to practise in (learnt_game.py).
 """
 

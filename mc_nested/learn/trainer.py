@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from mc_nested.arena.env import blank_observations
 from mc_nested.arena.scenario import Scenario
 from mc_nested.arena.vector import resumable_arenas
-from mc_nested.arrays import Arrays, Bools, Float64s, Int64s
+from mc_nested.arrays import Arrays, Bools, Float64s, Int64s, named_for, part_of
 from mc_nested.learn.agents import Agent
 from mc_nested.learn.choices import ChoiceStep
 from mc_nested.learn.dqn.replay import ReplayMark
@@ -28,7 +28,6 @@ from mc_nested.learn.imagination.background_practice import Background, Backgrou
 from mc_nested.learn.learner import CHOICE_NUMBERS
 from mc_nested.learn.practice import Practice, Step
 from mc_nested.learn.preset import Preset
-from mc_nested.learn.state_dict import named_for, part_of
 from mc_nested.learn.streams import Streams
 from mc_nested.learn.training import Training
 

@@ -10,18 +10,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mc_nested.arena.scenario import Scenario
-from mc_nested.arrays import Arrays, Float64s, Int64s
+from mc_nested.arrays import Arrays, Float64s, Int64s, named_for, part_of
 from mc_nested.learn.agents import Agent
 from mc_nested.learn.choices import choices_of
 from mc_nested.learn.episode_log import EpisodeRow, EvaluationRow, rows_of_table, table_of_rows
-from mc_nested.learn.exploration.excursions import Excursions
+from mc_nested.learn.exploration.return_then_explore import Excursions
 from mc_nested.learn.exploration.schedules import decays_of
 from mc_nested.learn.imagination.background_practice import Background
 from mc_nested.learn.imagination.imagination import Imagination
 from mc_nested.learn.learnt_game import LearntGame, LearntGameBesideIt, imagination_of
 from mc_nested.learn.practice import Practice
 from mc_nested.learn.preset import Preset
-from mc_nested.learn.state_dict import named_for, part_of
 
 
 class Training:

@@ -1,18 +1,131 @@
-"""Opening a live game from a profile: its window, the connection to it, and the Game that is played there."""
+"""Open a live game: its window, the connection to it, and the Game that is played there, from one value, an Opening."""
 
-from collections.abc import Iterator
-from contextlib import contextmanager
+from collections.abc import Callable, Iterator
+from contextlib import AbstractContextManager, contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+
+import tomlkit
 
 from mc_nested.arena.scenario import Scenario
-from mc_nested.live.devices import SWITCH_KEYS, Display
+from mc_nested.arena.scenario_file import table_of
+from mc_nested.errors import RecordingError
+from mc_nested.live.connection import GameConnection, prepare_keyboard
+from mc_nested.live.desktop import open_desktop
+from mc_nested.live.devices import SWITCH_KEYS, Devices, Display
+from mc_nested.live.input.input_controller import InputController
+from mc_nested.live.input.stops import Stop, watched
+from mc_nested.live.journal import Journal, Journals
 from mc_nested.live.live_game import LiveGame, check_fits
 from mc_nested.live.menus.click_points import load_click_points
 from mc_nested.live.menus.wait_for_player import check_block_is_named, check_hotbar, wait_until_standing_still
-from mc_nested.live.opening import Opening
+from mc_nested.live.model.versions import later_version_line
 from mc_nested.live.profile.fingerprint import Fingerprint, check_fit, game_in
 from mc_nested.live.profile.store import load_profile, profile_path
+from mc_nested.live.profile.tables import Profile
+from mc_nested.live.recording.run_recorder import OpenRecorder, no_recorder, recorder_opener
 from mc_nested.live.vision.font import load_font
 from mc_nested.live.vision.layout import Scales
+
+OFF = "off"
+"""Instead of a folder for the recording: nothing is recorded."""
+
+
+def open_desktops_panic_switch(key: str, stop: Stop) -> AbstractContextManager[None]:
+    """Open the panic switch of this desktop."""
+    # Imported here: importing it needs a display, which is open only now.
+    from mc_nested.live.desktop.panic import open_panic_switch
+
+    return open_panic_switch(key, stop)
+
+
+@dataclass(frozen=True)
+class Opening:
+    """How a game's window is opened, who is told what happens there, and what is recorded of it.
+
+    Args:
+        profile: the profile's name or file.
+        say: shows one line to the player.
+        what: the run, in a word or two, as "train-line": what its recording is named.
+        record: a new folder for the recording, or "off"; None for one among the others.
+        is_server_allowed: whether to play in a game that others may share.
+        journal: is told what is waited for, read, planned and done.
+        evidence: the folder for the last frames of a game that was given up.
+        open_devices: opens the window whose title matches.
+        open_panic_switch: opens the panic switch of the key that a profile names.
+
+    Raises:
+        RecordingError: the recording's folder holds something already.
+    """
+
+    profile: str
+    say: Callable[[str], None]
+    what: str = "play"
+    record: str | Path | None = OFF
+    is_server_allowed: bool = False
+    journal: Journal | None = None
+    evidence: Path | None = None
+    open_devices: Callable[[str], AbstractContextManager[Devices]] = open_desktop
+    open_panic_switch: Callable[[str, Stop], AbstractContextManager[None]] = open_desktops_panic_switch
+
+    def __post_init__(self) -> None:
+        folder = self._recordings_folder
+        if folder is not None and folder.exists() and (not folder.is_dir() or any(folder.iterdir())):
+            raise RecordingError(f"{folder}: holds something already: name a new folder for the recording, or {OFF!r}")
+
+    @contextmanager
+    def connection(self, profile: Profile, scenario: Scenario | None = None) -> Iterator["OpenWindow"]:
+        """Open the profile's window, recorded if that is asked for; it isn't read yet, and nothing is pressed.
+
+        Args:
+            profile: whose window it is.
+            scenario: what is built there, if anything: the recording keeps it.
+
+        Raises:
+            DesktopError: there is no such window, or this keyboard lacks one of the profile's keys.
+        """
+        recorder = self._recorder(scenario)
+        with self.open_devices(profile.window.title) as window, recorder(profile, window) as recording:
+            prepare_keyboard(profile, window)
+            devices = recording.devices(window)
+            if line := later_version_line(game_in(devices.display.title(), profile.game).version):
+                self.say(line)
+            controller = InputController(devices, profile.input)
+            connection = GameConnection(
+                devices,
+                controller,
+                is_server_allowed=self.is_server_allowed,
+                journal=Journals(*([self.journal] if self.journal else []), recording),
+                on_screen=recording.screen,
+            )
+            switch = self.open_panic_switch
+            yield OpenWindow(connection, lambda: switch(profile.keys.panic, recording.stopping(controller.stop)))
+
+    @property
+    def _recordings_folder(self) -> Path | None:
+        return None if self.record in (None, OFF) else Path(self.record)
+
+    def _recorder(self, scenario: Scenario | None) -> OpenRecorder:
+        if self.record == OFF:
+            return no_recorder
+        facts = {"is_server_allowed": str(self.is_server_allowed).lower()}
+        if scenario is not None:
+            facts["scenario"] = tomlkit.dumps(table_of(scenario).model_dump(exclude_none=True))
+        return recorder_opener(self._recordings_folder, self.what, self.say, facts)
+
+
+@dataclass(frozen=True)
+class OpenWindow:
+    """A game's window is open; its panic switch isn't yet."""
+
+    connection: GameConnection
+    panic_switch: Callable[[], AbstractContextManager[None]]
+
+    @contextmanager
+    def guarded(self) -> Iterator[None]:
+        """Guard the block: a watchdog releases keys that are held too long, and the panic switch stops all input."""
+        with watched(self.connection.controller), self.panic_switch():
+            yield
 
 
 @contextmanager

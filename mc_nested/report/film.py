@@ -10,8 +10,7 @@ from typing import Protocol
 from mc_nested.arena.drawing import Picture
 from mc_nested.atomic_file import atomic_write
 from mc_nested.errors import FilmError
-from mc_nested.report.gif import GifEncoder
-from mc_nested.report.mp4 import Mp4Encoder, check_ffmpeg
+from mc_nested.report.film_file import GifEncoder, Mp4Encoder, check_ffmpeg
 
 FPS = 10
 """Pictures a second in the file."""

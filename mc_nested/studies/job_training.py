@@ -1,4 +1,4 @@
-"""Training one job: tick by tick, saved once every evaluation interval; at the end its outcome is written."""
+"""Train one job: tick by tick, saved once every evaluation interval; at the end its outcome is written."""
 
 import shutil
 import time
@@ -7,12 +7,15 @@ from pathlib import Path
 from typing import Any, Protocol
 
 import numpy as np
+from gymnasium.vector import VectorEnv
 from numpy.typing import NDArray
 
-from mc_nested.arrays import Arrays, Int64s
+from mc_nested.arena.cooperative.team import Team, team_of
+from mc_nested.arrays import Arrays, Int64s, named_for, part_of
+from mc_nested.learn.agents import AGENT_SPECS, Agent
+from mc_nested.learn.builders import Builders
 from mc_nested.learn.episode_log import EvaluationRow
 from mc_nested.learn.runs.checkpoint import Checkpoint, fingerprint
-from mc_nested.learn.state_dict import named_for, part_of
 from mc_nested.learn.trainer import Trainer
 from mc_nested.learn.training import Training
 from mc_nested.studies.job import Job
@@ -99,7 +102,7 @@ class JobTraining:
     Args:
         job: what is trained.
         folder: the job's own; made at the first save.
-        trainer: an untrained one for the job's runs (job_trainers.py).
+        trainer: an untrained one for the job's runs (agents_trainer).
     """
 
     def __init__(self, job: Job, folder: Path, trainer: Trainer) -> None:
@@ -203,3 +206,18 @@ class JobTraining:
                 for run in range(runs)
             ],
         )
+
+
+def team_of_job(job: Job) -> Team | None:
+    """Return the builders who share an arena in each of its runs, all of one scenario; None where one builds alone."""
+    return team_of(job.scenarios[0], job.builders.count) if job.builders else None
+
+
+def agents_trainer(job: Job, env: VectorEnv[Int64s, Int64s, Any]) -> Trainer:
+    """Return the trainer of a job; ``env`` has the arena of each of its runs, as the simulator makes them."""
+    team = team_of_job(job)
+    builders = Builders(team.starts, job.builders.networks) if team and job.builders else None
+    spec = AGENT_SPECS[builders.agent] if builders else job.spec
+    agent = Agent(spec, job.scenarios, job.preset, job.seed, job.trials, builders)
+    view = agent.view_of(env, job.scenarios)
+    return Trainer(view, job.scenarios, agent, job.preset, job.seed, job.stop_at_optimum)

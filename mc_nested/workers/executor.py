@@ -1,15 +1,35 @@
-"""JobExecutor: the seam between a study and whoever trains its jobs, and the loop that waits for them all."""
+"""JobExecutor: the seam between a study and whoever trains its jobs, its messages, and the loop that waits for jobs."""
 
 from collections.abc import Callable, Sequence
 from concurrent.futures import CancelledError, Future
 from contextlib import suppress
+from dataclasses import dataclass
 from pathlib import Path
 from queue import Empty, SimpleQueue
 from typing import Protocol
 
 from mc_nested.errors import RunError
 from mc_nested.studies.job import Job
-from mc_nested.workers.messages import JobEnded, JobReport
+
+
+@dataclass(frozen=True)
+class JobReport:
+    """How far a job has got: training episodes and last greedy score of each run, None before the first; updates."""
+
+    job: str
+    episodes: Sequence[int]
+    scores: Sequence[float | None]
+    updates: int
+
+
+@dataclass(frozen=True)
+class JobEnded:
+    """A job is finished, or was saved unfinished because it had to stop, or ``failed`` says why it failed."""
+
+    job: str
+    finished: bool
+    failed: str = ""
+
 
 LOOK_EVERY_S = 0.2
 """Seconds that a Ctrl+C may go unnoticed while no job ends."""

@@ -1,4 +1,8 @@
-"""Processes of this computer that train a study's jobs; each takes the next job as soon as it is free."""
+"""Processes of this computer that train a study's jobs; each takes the next job as soon as it is free.
+
+Each talks to its parent through a pipe. The parent sends jobs; any message while a job trains, and the pipe's end,
+mean: save and stop. The process sends JobReports, and one JobEnded for each job.
+"""
 
 import multiprocessing
 import os
@@ -7,14 +11,51 @@ import sys
 from collections.abc import Iterator
 from concurrent.futures import Future, ThreadPoolExecutor
 from contextlib import contextmanager, suppress
+from multiprocessing.connection import Connection
 from pathlib import Path
 from queue import SimpleQueue
 from threading import Lock
+from types import FrameType
 
 from mc_nested.errors import RunError
 from mc_nested.studies.job import Job
-from mc_nested.workers.messages import JobEnded, JobReport
-from mc_nested.workers.process import serve_jobs
+from mc_nested.workers.executor import JobEnded, JobReport
+from mc_nested.workers.train_job import train_job
+
+REPORT_EVERY_S = 0.25
+"""Seconds between two reports, and between two looks whether to stop."""
+
+
+def serve_jobs(pipe: Connection) -> None:
+    """Receive jobs and their folders, one by one, until None or the pipe's end: the process's main function."""
+    stop = _StopSignal()
+
+    def report(now: JobReport) -> bool:
+        try:
+            pipe.send(now)
+            return not (pipe.poll() or stop.came)
+        except (EOFError, ConnectionError):
+            return False
+
+    try:
+        while (task := pipe.recv()) is not None and not stop.came:
+            job, folder = task
+            pipe.send(train_job(job, folder, report, REPORT_EVERY_S))
+    except (EOFError, ConnectionError):
+        return  # the parent was killed; the job is saved
+
+
+class _StopSignal:
+    """Ctrl+C reaches every process of a terminal and is left to the parent; SIGTERM is meant for this process."""
+
+    def __init__(self) -> None:
+        self.came = False
+        signal.signal(signal.SIGINT, signal.SIG_IGN)
+        signal.signal(signal.SIGTERM, self._take_note)
+
+    def _take_note(self, _number: int, _frame: FrameType | None) -> None:
+        self.came = True
+
 
 PATIENCE_S = 10.0
 """Seconds that a process may take to save its job."""

@@ -24,9 +24,8 @@ from rich.progress import track
 from mc_nested.arena.scenario_file import load_scenario
 from mc_nested.errors import UserError
 from mc_nested.live.input.signals import signals_as_exit
-from mc_nested.live.opening import Opening
 from mc_nested.live.profile.store import load_profile
-from mc_nested.live.session import open_live_game
+from mc_nested.live.session import Opening, open_live_game
 from scripts.bench import Figures
 from scripts.benches.played import WorldTruth, figures_of, play_in
 from scripts.programs import ROOT, MissingError, Say

@@ -1,24 +1,99 @@
-"""A rehearsal: a virtual client played in a real window, in real time, until the window is closed."""
+"""A rehearsal: a virtual client played in a real window, in real time, until the window is closed.
+
+Mishaps may happen to the window. The client writes the world as it truly is into a file that tests read.
+"""
 
 import dataclasses
+import json
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import moderngl
 import numpy as np
 
+from mc_nested.atomic_file import atomic_write
 from mc_nested.errors import DesktopError
+from mc_nested.live.model.reading import Block
 from sim.client.client import VirtualClient
 from sim.client.mishaps import Mishaps
-from sim.client.settings import ClientSettings
+from sim.client.settings import ClientSettings, Size
 from sim.window.frame_pacer import FramePacer
 from sim.window.glfw_window import GlfwWindow, now, open_glfw_window, refresh_rate
 from sim.window.input_events import InputEvents
-from sim.window.mishap_window import MishapWindow
-from sim.window.truth_file import TruthFile
 from sim.window.window_picture import WindowPicture
+
+
+class MishapWindow:
+    """What a mishap does to a client in a real window: the desktop's part is done to the window itself."""
+
+    def __init__(self, window: GlfwWindow, client: VirtualClient) -> None:
+        self._window, self._client = window, client
+        self.clock, self.game, self.window = client.clock, client.game, client.window
+
+    def set_front(self, *, is_in_front: bool) -> None:
+        self._window.set_front(is_in_front=is_in_front)
+
+    def stall(self, seconds: float) -> None:
+        self._client.stall(seconds)
+
+    def freeze(self, seconds: float) -> None:
+        self._client.freeze(seconds)
+
+    def blacken(self, seconds: float) -> None:
+        self._client.blacken(seconds)
+
+    def resize(self, size: Size) -> None:
+        self._window.resize(size)
+
+    def shift_window(self, right: int, down: int) -> None:
+        self._window.shift(right, down)
+
+
+class TruthFile:
+    """One JSON object, written anew at each frame in which something has changed, before that frame is shown.
+
+    ``screen``, ``feet`` (blocks), ``yaw`` and ``pitch`` (degrees), ``block_in_hand``, ``keys_down``, ``is_in_front``,
+    and ``built``: x, y, z and the name of each block that differs from the bare floor.
+    """
+
+    def __init__(self, path: Path, client: VirtualClient) -> None:
+        self._path, self._client = path, client
+        self._seen: Mapping[Block, str] = {}
+        self._built: list[list[int | str]] = []
+        self._written: dict[str, Any] = {}
+
+    def write(self) -> None:
+        """Write it, unless nothing has changed but the time."""
+        truth = {**truth_of(self._client), "built": self._listed(self._client.realm.world.seen())}
+        if truth == self._written:
+            return
+        self._written = truth
+        with atomic_write(self._path) as unfinished:
+            unfinished.write_text(json.dumps(truth), encoding="utf-8")
+
+    def _listed(self, built: Mapping[Block, str]) -> list[list[int | str]]:
+        """Return each block's x, y, z and name, in order; the same list again for the same mapping."""
+        if built is not self._seen:
+            self._seen, self._built = built, [[*block, name] for block, name in sorted(built.items())]
+        return self._built
+
+
+def truth_of(client: VirtualClient) -> dict[str, Any]:
+    """Return what the file holds, but for ``built``."""
+    player = client.realm.player
+    stack = player.hotbar[player.slot]
+    return {
+        "screen": client.game.screen,
+        "feet": player.feet,
+        "yaw": player.yaw,
+        "pitch": player.pitch,
+        "block_in_hand": stack.block if stack else None,
+        "keys_down": sorted(client.game.keys.physical),
+        "is_in_front": client.window.is_in_front,
+    }
 
 
 @dataclass(frozen=True)

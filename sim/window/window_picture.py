@@ -1,24 +1,56 @@
-"""The window's picture: the world below, the GUI above.
+"""The window's picture: the world below, the GUI above, drawn by OpenGL.
 
-The GUI is drawn over the world to the pixel: what the client's painter draws, drawn by OpenGL.
+The GUI is to the pixel what the client's painter draws. The part of the window that it covers is split into triangles:
+each pixel is in one of them at most.
 """
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from itertools import groupby
 
 import moderngl
 import numpy as np
+from numpy.typing import NDArray
 
 from mc_nested.live.devices import Frame
 from mc_nested.live.model.reading import Block
 from sim.client.client import VirtualClient
-from sim.client.drawing.layers import LayeredPicture, Rect
+from sim.client.drawing.layers import LayeredPicture, Rect, intersection
 from sim.client.drawing.painter import ViewLayers
 from sim.client.game.screens import IN_WORLD
 from sim.client.game.view import Eye, View
 from sim.window.frame_pacer import SmoothEye
-from sim.window.tiles import triangles
 from sim.window.world_scene import WorldScene
+
+TILE = 16
+"""The side of a tile, in pixels: a tile with anything in it is covered whole."""
+
+
+def triangles(rects: Sequence[Rect], size: tuple[int, int]) -> NDArray[np.float32]:
+    """Return the corners (n, 2) of triangles that cover the rectangles' tiles, in a window of ``size`` pixels.
+
+    Rectangles are in pixels from the upper left corner; corners are OpenGL's, from -1 to 1, y upwards.
+    """
+    width, height = size
+    is_covered = np.zeros((-(-height // TILE), -(-width // TILE)), bool)
+    for rect in rects:
+        if (inside := intersection(rect, (0, 0, width, height))) is not None:
+            left, top, right, bottom = inside
+            is_covered[top // TILE : -(-bottom // TILE), left // TILE : -(-right // TILE)] = True
+    corners = [corner for row, tiles in enumerate(is_covered) for corner in _row_corners(row, tiles.tolist())]
+    ends = np.array(corners, np.float32).reshape(-1, 2) * (2 * TILE)
+    return np.asarray(ends / (width, height) * (1, -1) + (-1, 1), np.float32)
+
+
+def _row_corners(row: int, tiles: list[bool]) -> Iterator[tuple[int, int]]:
+    """Yield two triangles for each run of covered tiles in a row, in tiles."""
+    at = 0
+    for is_covered, run in groupby(tiles):
+        end = at + len(list(run))
+        if is_covered:
+            yield from ((at, row), (end, row), (end, row + 1), (at, row), (end, row + 1), (at, row + 1))
+        at = end
+
 
 _VERTEX = """
 #version 330

@@ -15,7 +15,7 @@ from mc_nested.arena.game import Outcome, Resumable
 from mc_nested.arena.scenario import Scenario
 from mc_nested.errors import LiveError, McNestedError
 from mc_nested.live.devices import Frame, Region
-from mc_nested.live.opening import Opening
+from mc_nested.live.session import Opening
 from sim.grid import GridGame
 
 

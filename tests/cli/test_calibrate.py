@@ -12,9 +12,9 @@ from mc_nested.cli import calibrate, calibrate_steps
 from mc_nested.cli.app import main
 from mc_nested.cli.output import json_fields
 from mc_nested.errors import LiveError
-from mc_nested.live.opening import Opening
 from mc_nested.live.profile.store import load_profile, save_profile
 from mc_nested.live.profile.tables import GameVersion, Profile, ScreenTable
+from mc_nested.live.session import Opening
 from scripts.benches.calibration import context_opener_for, write_font
 from sim.client.client import VirtualClient
 from tests.cli.running import run

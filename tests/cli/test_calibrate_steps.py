@@ -11,9 +11,9 @@ from calibration.context import CalibrationContext, OpenContext, StepResult
 from mc_nested.cli import calibrate, calibrate_steps
 from mc_nested.cli.view import Viewed
 from mc_nested.errors import UserError
-from mc_nested.live.opening import Opening
 from mc_nested.live.profile.store import load_profile, save_profile
 from mc_nested.live.profile.tables import Profile
+from mc_nested.live.session import Opening
 from mc_nested.view.board import Board
 from mc_nested.view.publisher import Publisher
 from sim.client.client import VirtualClient

@@ -10,13 +10,12 @@ from mc_nested.arena.env import ArenaEnv
 from mc_nested.arena.vector import ArenaVectorEnv
 from mc_nested.cli.games_at_play import GamesAtPlay, LastEpisode, blocks_of
 from mc_nested.errors import ClusterError
-from mc_nested.learn.games.episode import EpisodePlan, PlayedEpisode
-from mc_nested.learn.games.player import play_episode
+from mc_nested.learn.games.episode import EpisodePlan, PlayedEpisode, play_episode
 from mc_nested.workers.games.dask_games import Answered, GameEvent, Joined, Left, NameTaken, Unreachable
-from mc_nested.workers.games.order import GameAnswer
+from mc_nested.workers.games.messages import GameAnswer
 from sim.grid import GridGame
 from tests.learn.made_experiments import DOT
-from tests.workers.games.made_orders import ORDER, new_trainer
+from tests.workers.games.made_setups import SETUP, new_trainer
 
 
 class MadeGames:
@@ -62,7 +61,7 @@ def play() -> Play:
 
 def played(plan: EpisodePlan) -> PlayedEpisode:
     arena = ArenaVectorEnv([ArenaEnv(GridGame(DOT), DOT)])
-    return play_episode(arena, plan, ORDER.new_agent())
+    return play_episode(arena, plan, SETUP.new_agent())
 
 
 def test_a_game_that_joins_is_asked_whether_it_is_ready_and_then_gets_a_plan(play: Play) -> None:
@@ -191,7 +190,7 @@ def test_the_view_shows_the_episode_that_came_back_last(play: Play) -> None:
     assert (shown.cell(0), shown.placed(0)) == (DOT.start, frozenset())
     (plan,) = play.begin("one")
     arena = ArenaVectorEnv([ArenaEnv(GridGame(DOT), DOT)])
-    episode = play_episode(arena, plan, ORDER.new_agent())
+    episode = play_episode(arena, plan, SETUP.new_agent())
     play.happens(Answered("one", GameAnswer(episode)))
     assert shown.cell(0) == arena.cell(0)
     assert shown.placed(0) == arena.placed(0)

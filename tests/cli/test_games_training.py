@@ -27,12 +27,13 @@ from mc_nested.workers.cluster.address import SchedulerAddress
 from mc_nested.workers.cluster.connection import connected
 from mc_nested.workers.cluster.keys import make_keys
 from mc_nested.workers.cluster.versions import own_versions
-from mc_nested.workers.games import dask_games, game_task
+from mc_nested.workers.games import dask_games
+from mc_nested.workers.games import mailbox as mailboxes
 from mc_nested.workers.games.dask_games import Answered, DaskGames, GameEvent
-from mc_nested.workers.games.desk import Desk
 from mc_nested.workers.games.game_server import GameServer, OpenGame
 from mc_nested.workers.games.game_worker import GameWorker
-from mc_nested.workers.games.order import GameAnswer, GameOrder
+from mc_nested.workers.games.mailbox import Mailbox
+from mc_nested.workers.games.messages import GameAnswer, GameSetup
 from sim.virtual_games import VirtualPlay, open_virtual_games
 from tests.cli.running import run
 from tests.dask_fixture import LEFTOVERS, leftovers
@@ -55,10 +56,10 @@ def url(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
 
 @pytest.fixture(autouse=True)
 def own_desk(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Give each test a desk of its own: one that is closed stays so."""
-    made = Desk()
-    for module in (game_task, serve):
-        monkeypatch.setattr(module, "desk", made)
+    """Give each test a mailbox of its own: one that is closed stays so."""
+    made = Mailbox()
+    for module in (mailboxes, serve):
+        monkeypatch.setattr(module, "mailbox", made)
 
 
 @pytest.fixture
@@ -97,13 +98,13 @@ def serve_here(url: str, is_over: threading.Event) -> threading.Thread:
     """Serve a game on the virtual client in a thread of this process, until the event is set."""
 
     @contextmanager
-    def opens(order: GameOrder) -> Iterator[OpenGame]:
+    def opens(order: GameSetup) -> Iterator[OpenGame]:
         with open_virtual_games([order.scenario], order.seed) as (game,):
             yield OpenGame(ArenaVectorEnv([ArenaEnv(game, order.scenario)]), VirtualPlay([game]), lambda: True)
 
     def serve() -> None:
         with GameWorker(SchedulerAddress(url, None), "here", lambda _: None):
-            GameServer(game_task.desk, opens, lambda _: None, is_over.is_set).serve()
+            GameServer(mailboxes.process_mailbox, opens, lambda _: None, is_over.is_set).serve()
 
     thread = threading.Thread(target=serve)
     thread.start()
@@ -132,7 +133,7 @@ def test_a_training_whose_episodes_another_process_plays_is_as_any_other(
 
 
 def test_a_game_is_served_until_its_player_ends_it(url: str, capsys: pytest.CaptureFixture[str]) -> None:
-    order = GameOrder("virtual", DOT, "nested", load_preset("model-based"), 3)
+    order = GameSetup("virtual", DOT, "nested", load_preset("model-based"), 3)
     trainer = GamesTrainer(DOT, order.new_agent(), order.preset, 3)
     came: list[GameAnswer] = []
 

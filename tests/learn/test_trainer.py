@@ -17,7 +17,7 @@ from mc_nested.arena.vector import ArenaVectorEnv
 from mc_nested.arrays import Arrays, Float32s, Int64s
 from mc_nested.learn.agents import AGENT_SPECS, Agent, AgentSpec
 from mc_nested.learn.evaluation import play_greedily
-from mc_nested.learn.exploration.excursions import Excursions
+from mc_nested.learn.exploration.return_then_explore import Excursions
 from mc_nested.learn.learner import Learner
 from mc_nested.learn.preset import ExcursionRule, Imitation, MainUpdates, Preset, Prioritized, load_preset
 from mc_nested.learn.trainer import Trainer

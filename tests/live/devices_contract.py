@@ -17,7 +17,7 @@ from mc_nested.live.devices import Devices
 from mc_nested.live.model.kinematics import TICK_S
 from scripts.rehearsal_window import TruthReader
 from sim.client.client import VirtualClient
-from sim.window.truth_file import truth_of
+from sim.window.rehearsal import truth_of
 
 SOON_S = 0.5
 CLICKS = 20

@@ -11,10 +11,9 @@ import pytest
 from mc_nested.arena.scenario_file import load_scenario
 from mc_nested.errors import DesktopError, FontError, LiveError, NotInFrontError, ProfileError, StoppedError
 from mc_nested.live.input.stops import Stop
-from mc_nested.live.opening import Opening
 from mc_nested.live.profile.fingerprint import Fingerprint
 from mc_nested.live.profile.tables import CalibratedTable, Profile, ScreenTable, WindowTable
-from mc_nested.live.session import fingerprint_of, open_live_game
+from mc_nested.live.session import Opening, fingerprint_of, open_live_game
 from mc_nested.live.vision.layout import Scales
 from sim.client.client import VirtualClient
 from sim.client.drawing import gui_layers

@@ -13,9 +13,8 @@ from mc_nested.arena.action import Cell
 from mc_nested.arena.builder import build_with_materials
 from mc_nested.arena.scenario_file import load_scenario
 from mc_nested.errors import NotConfirmedError, WrongScreenError
-from mc_nested.live.opening import Opening
 from mc_nested.live.profile.store import load_profile
-from mc_nested.live.session import open_live_game
+from mc_nested.live.session import Opening, open_live_game
 from scripts import standin_game
 from scripts.programs import ROOT
 from tests.arena.game_contract import BUMPS, check_game, check_materials

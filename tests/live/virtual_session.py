@@ -10,11 +10,10 @@ import cv2
 from mc_nested.arena.scenario import Scenario
 from mc_nested.live.devices import Devices, Display
 from mc_nested.live.live_game import LiveGame
-from mc_nested.live.opening import Opening
 from mc_nested.live.profile.arena import Arena
 from mc_nested.live.profile.store import save_profile
 from mc_nested.live.profile.tables import Profile, ScreenTable
-from mc_nested.live.session import open_live_game
+from mc_nested.live.session import Opening, open_live_game
 from sim.client.client import VirtualClient
 from sim.client.drawing.letters import drawn_atlas
 

@@ -10,7 +10,7 @@ import pytest
 
 from mc_nested.errors import FilmError, LiveError
 from mc_nested.report.film import LAST_S, check_film, open_film
-from mc_nested.report.mp4 import INSTALL
+from mc_nested.report.film_file import INSTALL
 from tests.report.films import BLUE, GREEN, RED, flat, pictures_of, shown
 
 

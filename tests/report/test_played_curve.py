@@ -1,4 +1,4 @@
-"""The curve of real episodes: a point for each, in two panels."""
+"""The curve of real episodes, in the order they were played: a point for each, in two panels."""
 
 from pathlib import Path
 
@@ -7,8 +7,24 @@ import pytest
 from matplotlib.colors import to_rgb
 
 from mc_nested.learn.episode_log import EpisodeRow, EvaluationRow
-from mc_nested.report.played import played_by
-from mc_nested.report.played_curve import EVALUATED, draw_played_curve
+from mc_nested.report.played_curve import EVALUATED, draw_played_curve, played_by
+
+
+def test_an_evaluation_comes_after_the_episode_of_its_number_and_each_takes_its_time() -> None:
+    episodes = [EpisodeRow(0, number, float(number), 0, 60, 0.0, 0.0) for number in (1, 2)]
+    episodes.append(EpisodeRow(1, 1, 7.0, 0, 10, 0.0, 0.0))
+    evaluations = [EvaluationRow(0, 0, -1.0, 0, 10), EvaluationRow(0, 1, 21.0, 0, 20)]
+    one, other = played_by(episodes, evaluations, 2)
+    assert one.scores.tolist() == [-1.0, 1.0, 21.0, 2.0]
+    assert one.greedy.tolist() == [True, False, True, False]
+    # 10, 60, 20 and 60 actions of 0.35 s, each after a reset of 1.5 s.
+    assert one.minutes * 60 == pytest.approx([5.0, 27.5, 36.0, 58.5])
+    assert (other.scores.tolist(), other.greedy.tolist()) == ([7.0], [False])
+
+
+def test_a_trial_without_an_episode_has_none() -> None:
+    (none,) = played_by([], [], 1)
+    assert (none.scores.shape, none.greedy.shape, none.minutes.shape) == ((0,), (0,), (0,))
 
 
 def evaluated_area(path: Path) -> int:

@@ -13,7 +13,7 @@ from mc_nested.arena.scenario import Material, Scenario
 from mc_nested.arena.scenario_file import load_scenario
 from mc_nested.cli.interrupt import INTERRUPTED
 from mc_nested.learn.trainer import Trainer
-from mc_nested.live.opening import Opening
+from mc_nested.live.session import Opening
 from sim.client.client import VirtualClient
 from sim.virtual_games import VirtualPlay, built_arena, open_virtual_games
 from sim.worlds import Backend, open_arenas, open_game, where_words

@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from mc_nested.errors import RunError
-from mc_nested.live.opening import Opening
+from mc_nested.live.session import Opening
 from sim.grid import GridVectorEnv
 from sim.worlds import Backend, open_arenas, open_game
 from tests.cli.running import run

@@ -14,8 +14,7 @@ from mc_nested.studies.arm import AGENTS, SB3, Arm
 from mc_nested.studies.benchmark import baseline, contestants_of
 from mc_nested.studies.config import StudyConfig, config_of
 from mc_nested.studies.folder import StudyFolder
-from mc_nested.studies.job_trainers import agents_trainer
-from mc_nested.studies.job_training import JobTraining
+from mc_nested.studies.job_training import JobTraining, agents_trainer
 from sim.grid import GridVectorEnv
 from tests.learn.made_experiments import BAR, DOT, small_preset
 

@@ -8,8 +8,7 @@ import pytest
 
 from mc_nested.errors import RunError
 from mc_nested.studies.job import Job
-from mc_nested.workers.executor import train_jobs
-from mc_nested.workers.messages import JobEnded, JobReport
+from mc_nested.workers.executor import JobEnded, JobReport, train_jobs
 from tests.learn.made_experiments import DOT, one_job
 
 JOB = one_job("nested", [DOT], 1)

@@ -1,4 +1,4 @@
-"""An experiment's processes: who gets which job, and what one that fails, is lost or is stopped leaves to the others.
+"""Processes of a study: which job each gets, and what the others keep of one that fails, is lost or is stopped.
 
 The processes are threads here, at the ends of real pipes, and train nothing.
 """
@@ -9,20 +9,23 @@ import signal
 import sys
 import threading
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import ExitStack
 from multiprocessing import Pipe
 from multiprocessing.connection import Connection
 from pathlib import Path
+from threading import Thread, Timer
 from types import SimpleNamespace
 
 import pytest
 
 from mc_nested.errors import RunError
+from mc_nested.learn.runs.folder_lock import folder_lock
 from mc_nested.studies.job import Job
+from mc_nested.studies.outcome import OUTCOME, outcome_of
 from mc_nested.workers import processes as job_processes
-from mc_nested.workers.executor import train_jobs
-from mc_nested.workers.messages import JobEnded, JobReport
-from mc_nested.workers.processes import ONE_THREAD_EACH, JobProcesses
+from mc_nested.workers.executor import JobEnded, JobReport, train_jobs
+from mc_nested.workers.processes import ONE_THREAD_EACH, JobProcesses, serve_jobs
 from tests.learn.made_experiments import DOT, one_job
 
 JOB = one_job("nested", [DOT], 1)
@@ -290,3 +293,148 @@ def test_they_start_with_one_thread_each_and_never_get_ctrl_c(
     assert (os.environ[first], second in os.environ) == ("5", False)
     if sys.platform != "win32":
         assert signal.SIGINT not in signal.pthread_sigmask(signal.SIG_BLOCK, [])
+
+
+SHORT_JOB = one_job("nested", [DOT], 2)
+
+
+@pytest.fixture
+def pipe() -> Iterator[tuple[Connection, Connection]]:
+    before = {number: signal.getsignal(number) for number in (signal.SIGINT, signal.SIGTERM)}
+    ours, theirs = Pipe()
+    yield ours, theirs
+    ours.close()
+    theirs.close()
+    for number, handler in before.items():
+        signal.signal(number, handler)
+
+
+def heard(pipe: Connection) -> list[JobReport | JobEnded]:
+    messages = []
+    while pipe.poll():
+        messages.append(pipe.recv())
+    return messages
+
+
+def test_jobs_are_trained_one_after_the_other(pipe: tuple[Connection, Connection], tmp_path: Path) -> None:
+    ours, theirs = pipe
+    said: list[JobReport | JobEnded] = []
+
+    def parent() -> None:
+        for name in ("one", "two"):
+            ours.send((SHORT_JOB, tmp_path / name))
+            while not said or not isinstance(said[-1], JobEnded):
+                said.append(ours.recv())
+            said.append(JobReport("", (), (), 0))
+        ours.send(None)
+
+    thread = Thread(target=parent)
+    thread.start()
+    serve_jobs(theirs)
+    thread.join()
+    assert said.count(JobEnded(SHORT_JOB.name, finished=True)) == 2
+    one, two = (outcome_of(SHORT_JOB, tmp_path / name) for name in ("one", "two"))
+    assert one
+    assert two
+    assert one.runs == two.runs
+
+
+def test_asked_to_stop_it_saves_and_ends(pipe: tuple[Connection, Connection], tmp_path: Path) -> None:
+    ours, theirs = pipe
+    ours.send((SHORT_JOB, tmp_path))
+    ours.send(None)
+    serve_jobs(theirs)
+    report, ended = heard(ours)
+    assert isinstance(report, JobReport)
+    assert ended == JobEnded(SHORT_JOB.name, finished=False)
+    assert (tmp_path / "checkpoint").exists()
+
+
+def test_without_its_parent_it_saves_and_ends(pipe: tuple[Connection, Connection], tmp_path: Path) -> None:
+    ours, theirs = pipe
+    ours.send((SHORT_JOB, tmp_path))
+    ours.close()
+    serve_jobs(theirs)
+    assert (tmp_path / "checkpoint").exists()
+    assert not (tmp_path / OUTCOME).exists()
+
+
+def test_a_job_waits_until_a_process_without_its_parent_has_saved_it(
+    pipe: tuple[Connection, Connection], tmp_path: Path
+) -> None:
+    ours, theirs = pipe
+    ours.send((SHORT_JOB, tmp_path))
+    ours.send(None)
+    with ExitStack() as other:
+        other.enter_context(folder_lock(tmp_path))
+        saved = Timer(0.2, other.close)
+        saved.start()
+        serve_jobs(theirs)
+        saved.join()
+    assert heard(ours)[-1] == JobEnded(SHORT_JOB.name, finished=False)
+
+
+def test_a_job_whose_folder_another_process_holds_is_reported(
+    pipe: tuple[Connection, Connection], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("mc_nested.workers.train_job.PATIENCE_S", 0.1)
+    ours, theirs = pipe
+    ours.send((SHORT_JOB, tmp_path))
+    ours.send(None)
+    with folder_lock(tmp_path):
+        serve_jobs(theirs)
+    (ended,) = heard(ours)
+    assert isinstance(ended, JobEnded)
+    assert ended.failed.startswith(f"{tmp_path}: process {os.getpid()} is writing there")
+
+
+def test_ctrl_c_is_left_to_the_parent(pipe: tuple[Connection, Connection], tmp_path: Path) -> None:
+    ours, theirs = pipe
+    ours.send(None)
+    serve_jobs(theirs)
+    signal.raise_signal(signal.SIGINT)
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_checkpoint_of_something_else_is_reported(pipe: tuple[Connection, Connection], tmp_path: Path) -> None:
+    ours, theirs = pipe
+    ours.send((one_job("nested", [DOT], 3), tmp_path))
+    ours.send(None)
+    serve_jobs(theirs)
+    heard(ours)
+    saved = {path.name: path.read_bytes() for path in (tmp_path / "checkpoint").iterdir()}
+    ours.send((SHORT_JOB, tmp_path))
+    ours.send(None)
+    serve_jobs(theirs)
+    (ended,) = heard(ours)
+    assert isinstance(ended, JobEnded)
+    assert "belongs to another scenario, agent or preset" in ended.failed
+    assert {path.name: path.read_bytes() for path in (tmp_path / "checkpoint").iterdir()} == saved
+
+
+def test_a_job_that_is_soon_over_is_reported_at_its_beginning_and_at_its_end(
+    pipe: tuple[Connection, Connection], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("mc_nested.workers.processes.REPORT_EVERY_S", 1e9)
+    ours, theirs = pipe
+    said: list[JobReport | JobEnded] = []
+
+    def parent() -> None:
+        ours.send((SHORT_JOB, tmp_path))
+        while not (said and isinstance(said[-1], JobEnded)):
+            said.append(ours.recv())
+        ours.send(None)
+
+    thread = Thread(target=parent)
+    thread.start()
+    serve_jobs(theirs)
+    thread.join()
+    first, last, ended = said
+    assert isinstance(first, JobReport)
+    assert isinstance(last, JobReport)
+    assert (list(first.episodes), tuple(first.scores), first.updates) == ([0, 0], (None, None), 0)
+    outcome = outcome_of(SHORT_JOB, tmp_path)
+    assert outcome
+    assert list(last.scores) == [run.evaluations[-1].score for run in outcome.runs]
+    assert last.updates == sum(run.updates for run in outcome.runs)
+    assert ended == JobEnded(SHORT_JOB.name, finished=True)

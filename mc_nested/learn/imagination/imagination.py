@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mc_nested.arena.action import Cell
-from mc_nested.arrays import Arrays, Bools, Float64s, Int64s
+from mc_nested.arrays import Arrays, Bools, Float64s, Int64s, named_for, part_of
 from mc_nested.learn.dqn.states import numbered
 from mc_nested.learn.imagination.arena_step import expected_landings, imagined_arena
 from mc_nested.learn.imagination.beliefs import Belief, Beliefs, believe
@@ -31,7 +31,6 @@ from mc_nested.learn.imagination.practice_session import (
 )
 from mc_nested.learn.learner import CHOICE_NUMBERS, Learner
 from mc_nested.learn.preset import ImaginationRule, Preset
-from mc_nested.learn.state_dict import named_for, part_of
 from mc_nested.learn.streams import practice_stream
 
 THOROUGH = 0.999

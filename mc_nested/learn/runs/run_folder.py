@@ -14,7 +14,7 @@ import tomlkit
 from mc_nested.arena.cooperative.team import Team
 from mc_nested.arena.scenario import Scenario
 from mc_nested.arena.scenario_file import scenario_of
-from mc_nested.arrays import Arrays
+from mc_nested.arrays import Arrays, part_of
 from mc_nested.atomic_file import atomic_write
 from mc_nested.errors import RunError, ScenarioError
 from mc_nested.learn.agents import AGENT_SPECS, Agent
@@ -24,7 +24,6 @@ from mc_nested.learn.runs.checkpoint import Checkpoint
 from mc_nested.learn.runs.folder_kind import check_config, check_free
 from mc_nested.learn.runs.run_config import RunConfig
 from mc_nested.learn.runs.summary import summarise
-from mc_nested.learn.state_dict import part_of
 from mc_nested.learn.training import Training
 from mc_nested.toml_file import parse_toml, read_toml_text
 

@@ -16,18 +16,21 @@ from typing import TYPE_CHECKING, Any
 
 from mc_nested.errors import RunError
 from mc_nested.studies.job import Job
-from mc_nested.workers.cluster.job_end import cancel, in_words, landed_from, lost
+from mc_nested.workers.cluster.cluster_workers import ClusterWorkers
 from mc_nested.workers.cluster.job_task import (
     GAME,
     Reported,
     Trained,
+    cancel,
+    in_words,
+    landed_from,
+    lost,
     packed,
     stop_training,
     train_on_worker,
 )
 from mc_nested.workers.cluster.versions import own_versions
-from mc_nested.workers.cluster.workers_seen import WorkersSeen
-from mc_nested.workers.messages import JobEnded, JobReport
+from mc_nested.workers.executor import JobEnded, JobReport
 
 if TYPE_CHECKING:  # the cluster extra's
     from distributed import Client
@@ -62,7 +65,7 @@ class DaskJobs:
         """Jobs that the scheduler has, and that haven't ended."""
         self._reported: SimpleQueue[JobReport] = SimpleQueue()
         self._futures: dict[str, Future[Trained]] = {}
-        self._seen = WorkersSeen(workers_that_train(client))
+        self._seen = ClusterWorkers(workers_that_train(client))
         self._lock = RLock()  # Dask tells what happens from threads of its own
         self._stopping = False
         client.subscribe_topic(self._topic, self._hear)

@@ -1,29 +1,76 @@
-"""What a cluster's worker does with a job: trains it in a folder of its own, and sends back what the folder holds then.
+"""A job on a cluster's worker: sent there with its files, trained in a folder of its own, and its files brought back.
 
 It runs in a thread of a Dask worker. Only jobs that begin are unpickled: after the versions were compared.
 """
 
 import os
 import pickle
+import shutil
 import sys
 import tempfile
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from threading import Lock
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+from mc_nested.atomic_file import atomic_write
 from mc_nested.errors import ClusterError
+from mc_nested.learn.runs.folder_lock import FILE as LOCK
 from mc_nested.report.tensorboard import FOLDER
 from mc_nested.studies.job import Job
-from mc_nested.workers.cluster.shipped_files import Files, files_below, write_below
+from mc_nested.studies.outcome import OUTCOME
 from mc_nested.workers.cluster.versions import Versions, differences, own_versions
-from mc_nested.workers.messages import JobEnded, JobReport
+from mc_nested.workers.executor import JobEnded, JobReport
 from mc_nested.workers.processes import ONE_THREAD_EACH
-from mc_nested.workers.training import train_job
+from mc_nested.workers.train_job import train_job
 
 if TYPE_CHECKING:
     from distributed import Worker
+from concurrent.futures import Future
+
+from mc_nested.errors import RunError, UserError
+
+Files = Mapping[str, bytes]
+"""Contents by path, relative to a folder, with slashes."""
+
+CHECKPOINT = "checkpoint"
+
+
+def files_below(folder: Path) -> Files:
+    """Return the folder's files; none where there is no such folder."""
+    paths = sorted(path for path in folder.rglob("*") if path.is_file() and path.name != LOCK)
+    return {path.relative_to(folder).as_posix(): path.read_bytes() for path in paths}
+
+
+def write_below(folder: Path, files: Files) -> None:
+    """Write the files into the folder; OSError if the disk refuses."""
+    for name, content in files.items():
+        path = folder / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        with atomic_write(path) as unfinished:
+            unfinished.write_bytes(content)
+
+
+def land(folder: Path, files: Files) -> None:
+    """Put what came back of a job into its folder, in place of the checkpoint there; OSError if the disk refuses.
+
+    Whenever the process is killed, the folder holds the old checkpoint, the new one or the outcome, each whole, or
+    nothing, so that the job begins anew.
+    """
+    current, new, old = folder / CHECKPOINT, folder / f"{CHECKPOINT}.new", folder / f"{CHECKPOINT}.old"
+    for leftover in (new, old):
+        shutil.rmtree(leftover, ignore_errors=True)
+    inside = f"{CHECKPOINT}/"
+    saved = {name.removeprefix(inside): each for name, each in files.items() if name.startswith(inside)}
+    write_below(new, saved)
+    write_below(folder, {name: each for name, each in files.items() if name == OUTCOME})
+    if current.exists():
+        current.rename(old)
+    if saved:
+        new.rename(current)
+    shutil.rmtree(old, ignore_errors=True)
+
 
 REPORT_EVERY_S = 1.0
 """Seconds between two reports, which all go through one scheduler, and between two looks whether to stop."""
@@ -124,3 +171,35 @@ def _use_one_thread() -> None:
     os.environ.update(ONE_THREAD_EACH)
     if torch := sys.modules.get("torch"):  # it has read the environment already
         torch.set_num_threads(1)
+
+
+WHY_LOST = "if nobody stopped them, it needs more memory than they have"
+
+
+def landed_from(trained: Trained, folder: Path) -> JobEnded:
+    """Put what a worker sent into the job's folder: how the job ended. RunError if the disk refuses."""
+    try:
+        if not trained.ended.failed:
+            land(folder, trained.files)
+            write_below(folder.parent.parent / FOLDER, trained.events)
+    except OSError as error:
+        raise RunError(f"{folder}: can't be written ({error}): make room") from error
+    return trained.ended
+
+
+def cancel(future: Future[JobEnded]) -> None:
+    """Let whoever waits for it know that it was cancelled."""
+    future.cancel()
+    future.set_running_or_notify_cancel()
+
+
+def lost(job: Job, workers: int) -> RunError:
+    """Return the end of a job that was lost with each of so many workers, and is given up."""
+    return RunError(f"job {job.name} was lost with each of {workers} workers: {WHY_LOST}")
+
+
+def in_words(job: Job, error: Exception) -> RunError:
+    """Return what went wrong with a job, as one line."""
+    if isinstance(error, UserError):
+        return RunError(str(error))
+    return RunError(f"job {job.name} failed on a worker: {type(error).__name__}: {error}")

@@ -13,9 +13,9 @@ from mc_nested.errors import ClusterError
 from mc_nested.learn.games.episode import EpisodePlan
 from mc_nested.workers.cluster.job_task import GAME
 from mc_nested.workers.cluster.versions import own_versions
-from mc_nested.workers.games.game_task import ask_game, packed
 from mc_nested.workers.games.game_worker import NAMES
-from mc_nested.workers.games.order import GameAnswer, GameOrder
+from mc_nested.workers.games.mailbox import ask_game, packed
+from mc_nested.workers.games.messages import GameAnswer, GameSetup
 
 if TYPE_CHECKING:  # the cluster extra's
     from distributed import Client
@@ -88,14 +88,14 @@ class DaskGames:
 
     Args:
         client: a connection to the games' scheduler.
-        order: what is played.
+        setup: what is played.
     """
 
-    def __init__(self, client: "Client", order: GameOrder) -> None:
+    def __init__(self, client: "Client", setup: GameSetup) -> None:
         self._client = client
         # Its futures are done once the answer is here; Dask's own, as soon as the game has it, and may lose it again.
         self._executor = client.get_executor(pure=False)
-        self._order = order
+        self._setup = setup
         self._happened: SimpleQueue[Done | NameTaken | None] = SimpleQueue()
         self._addresses: dict[str, str] = {}
         self._asked: dict[str, Future[GameAnswer]] = {}
@@ -131,7 +131,7 @@ class DaskGames:
         future = self._executor.submit(
             ask_game,
             own_versions(),
-            packed(self._order, plan),
+            packed(self._setup, plan),
             workers=[self._addresses[game]],
             resources={GAME: 1},
             allow_other_workers=False,

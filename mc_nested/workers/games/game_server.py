@@ -1,4 +1,4 @@
-"""The main thread of a served game: it owns the game, and plays what it finds on the desk."""
+"""The main thread of a served game: it owns the game, and plays what it finds in the mailbox."""
 
 from collections.abc import Callable
 from contextlib import AbstractContextManager, ExitStack
@@ -12,11 +12,10 @@ from mc_nested.arena.game import PlayLog
 from mc_nested.arrays import Int64s
 from mc_nested.errors import DesktopError, LiveError, NotInFrontError, UserError
 from mc_nested.learn.agents import Agent
-from mc_nested.learn.games.episode import PlayedEpisode
-from mc_nested.learn.games.player import play_episode
+from mc_nested.learn.games.episode import PlayedEpisode, play_episode
 from mc_nested.live.action_log import FailureBudget
-from mc_nested.workers.games.desk import Desk, Request
-from mc_nested.workers.games.order import GameAnswer, GameOrder
+from mc_nested.workers.games.mailbox import Mailbox, Request
+from mc_nested.workers.games.messages import GameAnswer, GameSetup
 
 Say = Callable[[str], None]
 """Shows one line to the player."""
@@ -35,8 +34,8 @@ class OpenGame:
     check_stopped: Callable[[], None] = lambda: None
 
 
-Opener = Callable[[GameOrder], AbstractContextManager[OpenGame]]
-"""Opens the game that an order needs. UserError or LiveError, one line each, if it can't be."""
+Opener = Callable[[GameSetup], AbstractContextManager[OpenGame]]
+"""Opens the game that a setup needs. UserError or LiveError, one line each, if it can't be."""
 
 
 class UnwantedError(LiveError):
@@ -47,18 +46,18 @@ class GameServer:
     """Plays what is asked for, until it is to end.
 
     Args:
-        desk: where requests lie.
+        mailbox: where requests lie.
         opens: opens the game.
         say: shows a line to the player.
         is_over: whether the player has asked to end.
     """
 
-    def __init__(self, desk: Desk, opens: Opener, say: Say, is_over: Callable[[], bool]) -> None:
-        self._desk = desk
+    def __init__(self, mailbox: Mailbox, opens: Opener, say: Say, is_over: Callable[[], bool]) -> None:
+        self._mailbox = mailbox
         self._opens = opens
         self._say = say
         self._is_over = is_over
-        self._order: GameOrder | None = None
+        self._setup: GameSetup | None = None
         self._stack = ExitStack()
         self._failures = FailureBudget()
         self._steps = self._episodes = 0
@@ -71,14 +70,14 @@ class GameServer:
         """
         with self._stack:
             while not self._is_over():
-                if request := self._desk.next():
+                if request := self._mailbox.next():
                     self._answer(request)
-                elif self._order:
+                elif self._setup:
                     self._game.check_stopped()
 
     def _answer(self, request: Request) -> None:
         try:
-            game, agent = self._opened_for(request.order)
+            game, agent = self._opened_for(request.setup)
         except (UserError, LiveError) as error:
             request.answer.set_result(GameAnswer(problem=str(error), is_refusal=True, leaves=True))
             raise
@@ -109,21 +108,21 @@ class GameServer:
     def _played(self, game: OpenGame, agent: Agent, request: Request) -> PlayedEpisode | None:
         if request.plan is None:
             return None
-        self._say(f"episode {self._episodes + 1} of {request.order.scenario.name}")
+        self._say(f"episode {self._episodes + 1} of {request.setup.scenario.name}")
         wanted = _WantedArena(game.arena, lambda: request.is_wanted() and not self._is_over())
         episode = play_episode(wanted, request.plan, agent)
         self._episodes += 1
         self._steps += episode.steps
-        self._say(f"episode {self._episodes}: score {episode.score:g} of {request.order.scenario.optimum:g}")
+        self._say(f"episode {self._episodes}: score {episode.score:g} of {request.setup.scenario.optimum:g}")
         return episode
 
-    def _opened_for(self, order: GameOrder) -> tuple[OpenGame, Agent]:
-        if order != self._order:
+    def _opened_for(self, setup: GameSetup) -> tuple[OpenGame, Agent]:
+        if setup != self._setup:
             self._stack.close()
-            self._order = None
-            self._game = self._stack.enter_context(self._opens(order))
-            self._agent = order.new_agent()
-            self._order = order
+            self._setup = None
+            self._game = self._stack.enter_context(self._opens(setup))
+            self._agent = setup.new_agent()
+            self._setup = setup
         return self._game, self._agent
 
     def _wait_until_in_front(self, game: OpenGame, request: Request) -> None:
@@ -137,7 +136,7 @@ class GameServer:
             if self._is_over() or not request.is_wanted():
                 raise UnwantedError("the game is paused")
             game.check_stopped()
-            self._desk.wait()
+            self._mailbox.wait()
         self._say("goes on")
 
     def _summary(self, game: OpenGame) -> dict[str, Any]:

@@ -4,7 +4,7 @@ import numpy as np
 
 from sim.client.client import VirtualClient
 from sim.client.mishaps import Mishaps
-from sim.window.mishap_window import MishapWindow
+from sim.window.rehearsal import MishapWindow
 
 if TYPE_CHECKING:
     from sim.window.glfw_window import GlfwWindow

@@ -3,7 +3,7 @@ from pathlib import Path
 
 from sim.client.client import VirtualClient
 from sim.client.game.realm import Stack
-from sim.window.truth_file import TruthFile
+from sim.window.rehearsal import TruthFile
 
 
 def test_the_truth_says_what_the_world_holds_and_where_the_player_is(tmp_path: Path) -> None:

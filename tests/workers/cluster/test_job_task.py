@@ -1,16 +1,35 @@
-"""What a worker does with a job; a Dask worker in this process, so that its folder can be looked at."""
+"""A job on a cluster's worker, there and back, and what is said of one that went wrong.
+
+A Dask worker runs in this process, so that its folder can be looked at.
+"""
 
 from collections.abc import Iterator
+from concurrent.futures import Future, wait
 from pathlib import Path
 
 import pytest
 from distributed import Client, LocalCluster
+from hypothesis import given
+from hypothesis import strategies as st
 
+from mc_nested.errors import RunError
+from mc_nested.learn.runs.folder_lock import FILE as LOCK
 from mc_nested.studies.job import Job
 from mc_nested.studies.outcome import OUTCOME
-from mc_nested.workers.cluster.job_task import Trained, packed, stop_training, train_on_worker
+from mc_nested.workers.cluster.job_task import (
+    Trained,
+    cancel,
+    files_below,
+    in_words,
+    land,
+    landed_from,
+    packed,
+    stop_training,
+    train_on_worker,
+    write_below,
+)
 from mc_nested.workers.cluster.versions import own_versions
-from mc_nested.workers.messages import JobEnded
+from mc_nested.workers.executor import JobEnded
 from tests.dask_fixture import LEFTOVERS, leftovers
 from tests.learn.made_experiments import DOT, one_job
 
@@ -87,3 +106,60 @@ def test_a_job_whose_task_is_cancelled_ends(client: Client, tmp_path: Path) -> N
         pass
     future.cancel()
     assert train(client, tmp_path, "after").ended.finished
+
+
+JOB = one_job("nested", [DOT], 2)
+
+
+def test_a_job_that_failed_changes_nothing_in_its_folder(tmp_path: Path) -> None:
+    ended = JobEnded(JOB.name, finished=False, failed="too small a disk")
+    folder = tmp_path / "jobs" / JOB.name
+    assert landed_from(Trained(ended, {}, {}), folder) == ended
+    assert not folder.exists()
+
+
+def test_a_disk_error_is_reported_in_one_line(tmp_path: Path) -> None:
+    (tmp_path / "jobs").write_text("a file where the folder would be")
+    folder = tmp_path / "jobs" / JOB.name
+    with pytest.raises(RunError, match=r"can't be written .*: make room$"):
+        landed_from(Trained(JobEnded(JOB.name, finished=True), {"outcome.json": b"{}"}, {}), folder)
+
+
+def test_whoever_waits_for_a_cancelled_job_is_told() -> None:
+    future: Future[JobEnded] = Future()
+    cancel(future)
+    assert wait([future], 0).done == {future}
+    assert future.cancelled()
+
+
+def test_a_users_mistake_is_reported_as_it_is_and_any_other_error_with_its_name() -> None:
+    assert str(in_words(JOB, RunError("make room"))) == "make room"
+    assert str(in_words(JOB, ValueError("odd"))) == f"job {JOB.name} failed on a worker: ValueError: odd"
+
+
+NAMES = st.sampled_from(["a", "b", "checkpoint/a", "checkpoint/deep/b"])
+
+
+@given(files=st.dictionaries(NAMES, st.binary(max_size=20)))
+def test_written_files_are_read_back(files: dict[str, bytes], tmp_path_factory: object) -> None:
+    folder = tmp_path_factory.mktemp("files")  # type: ignore[attr-defined]  # pytest's
+    write_below(folder, files)
+    assert files_below(folder) == files
+
+
+def test_a_folder_that_is_not_there_holds_nothing_and_a_lock_is_not_sent(tmp_path: Path) -> None:
+    assert files_below(tmp_path / "none") == {}
+    (tmp_path / LOCK).touch()
+    assert files_below(tmp_path) == {}
+
+
+def test_an_outcome_takes_the_place_of_a_checkpoint(tmp_path: Path) -> None:
+    write_below(tmp_path, {"checkpoint/old": b"1", LOCK: b""})
+    land(tmp_path, {OUTCOME: b"{}"})
+    assert files_below(tmp_path) == {OUTCOME: b"{}"}
+
+
+def test_a_checkpoint_takes_the_place_of_the_last_one_whole(tmp_path: Path) -> None:
+    write_below(tmp_path, {"checkpoint/old": b"1", "checkpoint/both": b"1", "checkpoint.new/half": b"1"})
+    land(tmp_path, {"checkpoint/new": b"2", "checkpoint/both": b"2"})
+    assert files_below(tmp_path) == {"checkpoint/new": b"2", "checkpoint/both": b"2"}

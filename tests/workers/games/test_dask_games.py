@@ -19,15 +19,16 @@ from mc_nested.workers.cluster.address import SchedulerAddress
 from mc_nested.workers.cluster.connection import connected
 from mc_nested.workers.cluster.dask_jobs import DaskJobs, workers_that_train
 from mc_nested.workers.cluster.versions import own_versions
-from mc_nested.workers.games import dask_games, game_task, game_worker
+from mc_nested.workers.games import dask_games, game_worker
+from mc_nested.workers.games import mailbox as mailboxes
 from mc_nested.workers.games.dask_games import Answered, DaskGames, GameEvent, Joined, Left, NameTaken, Unreachable
-from mc_nested.workers.games.desk import Desk, Request
 from mc_nested.workers.games.game_worker import LOST, GameWorker
-from mc_nested.workers.games.order import GameAnswer
+from mc_nested.workers.games.mailbox import Mailbox, Request
+from mc_nested.workers.games.messages import GameAnswer
 from tests.dask_fixture import LEFTOVERS, leftovers
 from tests.learn.made_experiments import DOT, one_job
 from tests.workers.cluster.dask_programs import scheduler, worker
-from tests.workers.games.made_orders import ORDER, new_trainer
+from tests.workers.games.made_setups import SETUP, new_trainer
 from tests.workers.games.proxy import Proxy
 
 __all__ = ["leftovers"]
@@ -67,9 +68,9 @@ def client(address: SchedulerAddress) -> Iterator[Client]:
 
 
 @pytest.fixture
-def desk(monkeypatch: pytest.MonkeyPatch) -> Iterator[Desk]:
-    made = Desk()
-    monkeypatch.setattr(game_task, "desk", made)
+def mailbox(monkeypatch: pytest.MonkeyPatch) -> Iterator[Mailbox]:
+    made = Mailbox()
+    monkeypatch.setattr(mailboxes, "process_mailbox", made)
     yield made
     made.close()
 
@@ -83,8 +84,8 @@ def until(games: DaskGames, count: int) -> list[GameEvent]:
     return events
 
 
-def next_request(desk: Desk) -> Request:
-    while not (request := desk.next()):  # which waits for one itself
+def next_request(mailbox: Mailbox) -> Request:
+    while not (request := mailbox.next()):  # which waits for one itself
         pass
     return request
 
@@ -99,15 +100,15 @@ def quiet(_: str) -> None:
     pass
 
 
-def test_games_come_answer_and_go(address: SchedulerAddress, client: Client, desk: Desk) -> None:
+def test_games_come_answer_and_go(address: SchedulerAddress, client: Client, mailbox: Mailbox) -> None:
     plan = new_trainer().plan("one")
-    with DaskGames(client, ORDER) as games:
+    with DaskGames(client, SETUP) as games:
         assert games.events(0.5) == []
         with GameWorker(address, "one", quiet):
             assert until(games, 1) == [Joined("one")]
             games.ask("one", plan)
-            request = next_request(desk)
-            assert request.order == ORDER
+            request = next_request(mailbox)
+            assert request.setup == SETUP
             assert request.plan
             assert request.plan.online.tobytes() == plan.online.tobytes()
             assert request.is_wanted()
@@ -119,7 +120,7 @@ def test_games_come_answer_and_go(address: SchedulerAddress, client: Client, des
 
 def test_a_second_game_of_that_name_is_refused_and_the_first_stays(address: SchedulerAddress, client: Client) -> None:
     said: list[str] = []
-    with DaskGames(client, ORDER) as games, GameWorker(address, "one", said.append):
+    with DaskGames(client, SETUP) as games, GameWorker(address, "one", said.append):
         assert until(games, 1) == [Joined("one")]
         with pytest.raises(ClusterError, match="is named one: give this one another --name"):
             GameWorker(address, "one", said.append).__enter__()
@@ -129,14 +130,14 @@ def test_a_second_game_of_that_name_is_refused_and_the_first_stays(address: Sche
 
 
 def test_a_game_whose_network_is_gone_joins_again_and_breaks_off_what_it_played(
-    address: SchedulerAddress, client: Client, desk: Desk
+    address: SchedulerAddress, client: Client, mailbox: Mailbox
 ) -> None:
     proxy = Proxy(address.url)
     said: list[str] = []
-    with DaskGames(client, ORDER) as games, GameWorker(SchedulerAddress(proxy.address, None), "one", said.append):
+    with DaskGames(client, SETUP) as games, GameWorker(SchedulerAddress(proxy.address, None), "one", said.append):
         assert until(games, 1) == [Joined("one")]
         games.ask("one", None)
-        request = next_request(desk)
+        request = next_request(mailbox)
         proxy.cut()
         assert until(games, 1) == [Left("one")]
         until_so(lambda: not request.is_wanted())
@@ -148,13 +149,13 @@ def test_a_game_whose_network_is_gone_joins_again_and_breaks_off_what_it_played(
 
 
 def test_an_answer_of_a_game_that_has_left_since_counts_and_is_told_first(
-    address: SchedulerAddress, client: Client, desk: Desk
+    address: SchedulerAddress, client: Client, mailbox: Mailbox
 ) -> None:
-    with DaskGames(client, ORDER) as games:
+    with DaskGames(client, SETUP) as games:
         with GameWorker(address, "one", quiet):
             assert until(games, 1) == [Joined("one")]
             games.ask("one", None)
-            request = next_request(desk)
+            request = next_request(mailbox)
             request.answer.set_result(GameAnswer())
         assert games.events(PATIENCE_S) == [Answered("one", GameAnswer())]
         games.ask("one", None)
@@ -163,17 +164,17 @@ def test_an_answer_of_a_game_that_has_left_since_counts_and_is_told_first(
 
 @pytest.mark.parametrize("looks", [True, False], ids=["while it looks", "while it doesn't look"])
 def test_a_learner_whose_network_was_gone_asks_its_games_anew(
-    looks: bool, address: SchedulerAddress, desk: Desk
+    looks: bool, address: SchedulerAddress, mailbox: Mailbox
 ) -> None:
     proxy = Proxy(address.url)
     with ExitStack() as stack:
         stack.callback(proxy.close)
         stack.enter_context(GameWorker(address, "one", quiet))
         client = stack.enter_context(connected(SchedulerAddress(proxy.address, None)))
-        games = stack.enter_context(DaskGames(client, ORDER))
+        games = stack.enter_context(DaskGames(client, SETUP))
         assert until(games, 1) == [Joined("one")]
         games.ask("one", None)
-        request = next_request(desk)
+        request = next_request(mailbox)
         before = client.scheduler_comm
         proxy.cut()
         if not looks:  # and in the meantime Dask has connected it again
@@ -182,12 +183,12 @@ def test_a_learner_whose_network_was_gone_asks_its_games_anew(
         assert not request.is_wanted()
         request.answer.set_result(GameAnswer(problem="too late"))
         games.ask("one", None)
-        next_request(desk).answer.set_result(GameAnswer())
+        next_request(mailbox).answer.set_result(GameAnswer())
         assert until(games, 1) == [Answered("one", GameAnswer())]
 
 
 def test_an_episode_that_came_back_before_the_scheduler_was_lost_counts(
-    tmp_path: Path, desk: Desk, monkeypatch: pytest.MonkeyPatch
+    tmp_path: Path, mailbox: Mailbox, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(connection, "CONNECT_S", 1.0)
     with ExitStack() as stack:
@@ -195,10 +196,10 @@ def test_an_episode_that_came_back_before_the_scheduler_was_lost_counts(
         address = SchedulerAddress(killed.enter_context(scheduler(tmp_path)), None)
         client = stack.enter_context(connected(address))
         stack.enter_context(GameWorker(address, "one", quiet))
-        games = stack.enter_context(DaskGames(client, ORDER))
+        games = stack.enter_context(DaskGames(client, SETUP))
         assert until(games, 1) == [Joined("one")]
         games.ask("one", None)
-        next_request(desk).answer.set_result(GameAnswer())
+        next_request(mailbox).answer.set_result(GameAnswer())
         until_so(games._asked["one"].done)
         killed.close()
         until_so(lambda: bool(client.status == "closed"))
@@ -208,28 +209,30 @@ def test_an_episode_that_came_back_before_the_scheduler_was_lost_counts(
 
 
 def test_an_answer_that_cannot_be_fetched_is_told_once(
-    address: SchedulerAddress, client: Client, desk: Desk, monkeypatch: pytest.MonkeyPatch
+    address: SchedulerAddress, client: Client, mailbox: Mailbox, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(dask_games, "FETCHED_S", 0.5)
     nobody = "tcp://127.0.0.1:9"
     monkeypatch.setattr(distributed, "Worker", partial(distributed.Worker, contact_address=nobody))
-    with DaskGames(client, ORDER) as games:
+    with DaskGames(client, SETUP) as games:
         with GameWorker(address, "one", quiet):
             assert until(games, 1) == [Joined("one")]
             games.ask("one", None)
-            next_request(desk).answer.set_result(GameAnswer())
+            next_request(mailbox).answer.set_result(GameAnswer())
             assert until(games, 1) == [Unreachable("one", nobody)]
             assert games.events(0.5) == []
         assert until(games, 1) == [Left("one")]
         assert games.events(0.5) == []
 
 
-def test_a_learner_that_is_done_wants_no_answer_any_more(address: SchedulerAddress, client: Client, desk: Desk) -> None:
+def test_a_learner_that_is_done_wants_no_answer_any_more(
+    address: SchedulerAddress, client: Client, mailbox: Mailbox
+) -> None:
     with GameWorker(address, "one", quiet):
-        with DaskGames(client, ORDER) as games:
+        with DaskGames(client, SETUP) as games:
             assert until(games, 1) == [Joined("one")]
             games.ask("one", None)
-            request = next_request(desk)
+            request = next_request(mailbox)
         until_so(lambda: not request.is_wanted())
         request.answer.set_result(GameAnswer())
 
@@ -238,7 +241,7 @@ def test_a_game_with_other_versions_says_what_differs(
     address: SchedulerAddress, client: Client, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(dask_games, "own_versions", lambda: {**own_versions(), "numba": "0.1"})
-    with DaskGames(client, ORDER) as games, GameWorker(address, "one", quiet):
+    with DaskGames(client, SETUP) as games, GameWorker(address, "one", quiet):
         assert until(games, 1) == [Joined("one")]
         games.ask("one", None)
         (event,) = until(games, 1)
@@ -256,7 +259,7 @@ def test_a_game_on_loopback_listens_on_loopback_alone(address: SchedulerAddress)
         assert {host for host, _ in listening() - before} == {"127.0.0.1"}
 
 
-@pytest.mark.usefixtures("desk")
+@pytest.mark.usefixtures("mailbox")
 def test_an_experiments_job_leaves_a_game_alone(address: SchedulerAddress, client: Client, tmp_path: Path) -> None:
     with GameWorker(address, "one", quiet):
         assert workers_that_train(client) == []
@@ -271,7 +274,7 @@ def test_an_experiments_job_leaves_a_game_alone(address: SchedulerAddress, clien
 
 
 @pytest.mark.slow
-@pytest.mark.usefixtures("desk")
+@pytest.mark.usefixtures("mailbox")
 def test_an_experiments_job_waits_beside_a_game_for_a_worker(
     address: SchedulerAddress, client: Client, tmp_path: Path
 ) -> None:
@@ -317,7 +320,7 @@ def test_a_scheduler_that_is_lost_for_good_is_reported(tmp_path: Path, monkeypat
         killed = ExitStack()
         url = killed.enter_context(scheduler(tmp_path))
         client = stack.enter_context(connected(SchedulerAddress(url, None)))
-        games = stack.enter_context(DaskGames(client, ORDER))
+        games = stack.enter_context(DaskGames(client, SETUP))
         assert games.events(0.1) == []
         killed.close()
         with pytest.raises(ClusterError, match=r"^the scheduler was lost: start it again$"):
@@ -333,7 +336,7 @@ def test_a_scheduler_that_hangs_keeps_nobody_waiting(tmp_path: Path, monkeypatch
     with (
         scheduler(tmp_path) as url,
         connected(SchedulerAddress(url, None)) as client,
-        DaskGames(client, ORDER) as games,
+        DaskGames(client, SETUP) as games,
     ):
         assert games.events(0.1) == []
         (process,) = [each for each in psutil.Process().children() if each.pid not in before]

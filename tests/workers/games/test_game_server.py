@@ -11,11 +11,11 @@ from mc_nested.arena.env import ArenaEnv
 from mc_nested.arena.vector import ArenaVectorEnv
 from mc_nested.errors import DesktopError, LiveError, NotConfirmedError, ProfileError, StoppedError
 from mc_nested.learn.games.episode import EpisodePlan
-from mc_nested.workers.games.desk import Desk, Request
 from mc_nested.workers.games.game_server import GameServer, OpenGame
-from mc_nested.workers.games.order import GameAnswer, GameOrder
+from mc_nested.workers.games.mailbox import Mailbox, Request
+from mc_nested.workers.games.messages import GameAnswer, GameSetup
 from sim.virtual_games import VirtualPlay, open_virtual_games
-from tests.workers.games.made_orders import ORDER, new_trainer
+from tests.workers.games.made_setups import SETUP, new_trainer
 
 PLAN = new_trainer().plan("pc")
 
@@ -28,7 +28,7 @@ class Served:
         self.is_in_front = True
         self.is_ended = False
         """Whether the player has ended it."""
-        self.opened: list[GameOrder] = []
+        self.opened: list[GameSetup] = []
         self.closed = 0
         self.before_step: Callable[[], None] = lambda: None
         self.check_stopped: Callable[[], None] = lambda: None
@@ -39,13 +39,13 @@ class Served:
         """What is held down in the client's window: keys and buttons."""
 
     @contextmanager
-    def opens(self, order: GameOrder) -> Iterator[OpenGame]:
+    def opens(self, setup: GameSetup) -> Iterator[OpenGame]:
         if self.opening_error:
             raise self.opening_error
-        self.opened.append(order)
+        self.opened.append(setup)
         try:
-            with open_virtual_games([order.scenario], order.seed) as (game,):
-                arena = ArenaVectorEnv([ArenaEnv(game, order.scenario)])
+            with open_virtual_games([setup.scenario], setup.seed) as (game,):
+                arena = ArenaVectorEnv([ArenaEnv(game, setup.scenario)])
                 keyboard: Any = game.connection.devices.keyboard
                 self.down = keyboard._sender._window.down
                 step = arena.step
@@ -61,16 +61,16 @@ class Served:
 
     def ask(self, *plans: EpisodePlan | None, wanted: Callable[[], bool] = lambda: True) -> list[GameAnswer]:
         """Return the answers to these requests, after which the player ends it."""
-        desk = Desk()
-        requests = [Request(ORDER, plan, wanted, Future()) for plan in plans]
+        mailbox = Mailbox()
+        requests = [Request(SETUP, plan, wanted, Future()) for plan in plans]
         for request in requests:
-            desk._requests.put(request)
+            mailbox._requests.put(request)
 
         def is_over() -> bool:
             all_is_answered = all(request.answer.done() for request in requests)
             return self.is_ended or (all_is_answered and next(self.looks, None) is None)
 
-        self.server = GameServer(desk, self.opens, self.said.append, is_over)
+        self.server = GameServer(mailbox, self.opens, self.said.append, is_over)
         try:
             self.server.serve()
         finally:

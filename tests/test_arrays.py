@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from mc_nested.learn.state_dict import named_for, part_of
+from mc_nested.arrays import named_for, part_of
 
 ONE, TWO = np.array([1]), np.array([2])
 

@@ -1,4 +1,4 @@
-"""What a learner asks of a game, and what the game answers."""
+"""Messages between a learner and a game: the training to play for, and the game's answer."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -11,7 +11,7 @@ from mc_nested.learn.preset import Preset
 
 
 @dataclass(frozen=True)
-class GameOrder:
+class GameSetup:
     """What is played for a training: in which kind of game, what is built, and by whom.
 
     Args:
@@ -39,7 +39,7 @@ class GameAnswer(NamedTuple):
     Args:
         episode: as it was played and confirmed; None where none was asked for, or it came to nothing.
         problem: why it came to nothing, in a line; empty where it didn't, or the game stands ready.
-        is_refusal: whether this game can't play such an order at all.
+        is_refusal: whether this game can't play such a setup at all.
         leaves: whether this game won't play any more.
         log: what playing took so far, for a summary.
     """

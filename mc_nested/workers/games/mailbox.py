@@ -1,8 +1,10 @@
-"""Where Dask's thread leaves what is asked of a game, and the main thread, which owns the game, takes it and answers.
+"""A mailbox between Dask's thread and the main thread, which owns the game.
 
-Signals, the panic key and everything that releases keys belong to the main thread.
+Dask's thread compares versions, leaves a request and waits; the main thread takes it and answers. Signals, the panic
+key and everything that releases keys belong to the main thread.
 """
 
+import pickle
 from collections.abc import Callable
 from concurrent.futures import Future, wait
 from dataclasses import dataclass, field
@@ -11,7 +13,9 @@ from threading import Event
 
 from mc_nested.errors import ClusterError
 from mc_nested.learn.games.episode import EpisodePlan
-from mc_nested.workers.games.order import GameAnswer, GameOrder
+from mc_nested.workers.cluster.job_task import wanted_here
+from mc_nested.workers.cluster.versions import Versions, differences, own_versions
+from mc_nested.workers.games.messages import GameAnswer, GameSetup
 
 LOOK_EVERY_S = 0.2
 
@@ -25,13 +29,13 @@ class Request:
     ``is_wanted`` says whether anybody still waits for the answer.
     """
 
-    order: GameOrder
+    setup: GameSetup
     plan: EpisodePlan | None
     is_wanted: Callable[[], bool]
     answer: Future[GameAnswer] = field(default_factory=Future)
 
 
-class Desk:
+class Mailbox:
     """Requests in one direction, answers in the other; one at a time."""
 
     def __init__(self) -> None:
@@ -39,9 +43,9 @@ class Desk:
         self._closed = Event()
         self._refusal: ClusterError | None = None
 
-    def ask(self, order: GameOrder, plan: EpisodePlan | None, is_wanted: Callable[[], bool]) -> GameAnswer:
+    def ask(self, setup: GameSetup, plan: EpisodePlan | None, is_wanted: Callable[[], bool]) -> GameAnswer:
         """Leave a request, and wait for its answer. Dask's thread calls this."""
-        request = Request(order, plan, is_wanted)
+        request = Request(setup, plan, is_wanted)
         self._requests.put(request)
         while not (self._closed.is_set() or wait([request.answer], LOOK_EVERY_S).done):
             pass
@@ -70,3 +74,25 @@ class Desk:
     def close(self) -> None:
         """Answer whoever asks, now and later, that the game was closed."""
         self._closed.set()
+
+
+process_mailbox = Mailbox()
+"""The mailbox of this process, which serves one game at most."""
+
+
+def packed(setup: GameSetup, plan: EpisodePlan | None) -> bytes:
+    """Return a request, for ``ask_game``."""
+    return pickle.dumps((setup, plan))
+
+
+def ask_game(versions: Versions, package: bytes) -> GameAnswer:
+    """Let this process's game play a packed request; the answer. ClusterError if the versions aren't those."""
+    from distributed import get_worker
+
+    worker = get_worker()
+    if differing := differences(versions, own_versions()):
+        error = ClusterError(f"{worker.name} has {differing}: install the same on both")
+        process_mailbox.refuse(error)
+        raise error
+    setup, plan = pickle.loads(package)  # noqa: S301 - from the learner, which the scheduler has let in
+    return process_mailbox.ask(setup, plan, wanted_here(worker))

@@ -3,7 +3,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from sim.client.drawing.layers import Rect
-from sim.window.tiles import TILE, triangles
+from sim.window.window_picture import TILE, triangles
 
 SIZE = (70, 50)
 SIDES = st.tuples(st.integers(-20, 90), st.integers(-20, 90)).map(sorted)

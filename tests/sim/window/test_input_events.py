@@ -2,7 +2,7 @@ import pytest
 
 from mc_nested.live.model.keys import check_key
 from sim.client.game.keys import BINDINGS
-from sim.window.places import PLACES, symbol_at
+from sim.window.input_events import PLACES, symbol_at
 
 
 @pytest.mark.parametrize(

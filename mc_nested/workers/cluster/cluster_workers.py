@@ -1,10 +1,10 @@
-"""Which of a cluster's workers train what, and which were lost, by what its scheduler tells."""
+"""Keep track of which worker of a cluster trains which job, and which workers were lost, by its scheduler's events."""
 
 from collections.abc import Iterable
 from typing import Any
 
 
-class WorkersSeen:
+class ClusterWorkers:
     """The workers of one study.
 
     Args:

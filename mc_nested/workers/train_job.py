@@ -1,4 +1,4 @@
-"""Training one job in its folder, tick by tick, until it is finished or nobody wants it to go on."""
+"""Train one job in its folder, tick by tick, until it is finished or nobody wants it to go on."""
 
 import re
 import time
@@ -9,10 +9,9 @@ from mc_nested.errors import UserError
 from mc_nested.learn.runs.folder_lock import folder_lock
 from mc_nested.report.tensorboard import FOLDER, TensorBoard, is_installed
 from mc_nested.studies.job import Job
-from mc_nested.studies.job_trainers import agents_trainer, team_of_job
-from mc_nested.studies.job_training import JobTraining, TrainedJob
+from mc_nested.studies.job_training import JobTraining, TrainedJob, agents_trainer, team_of_job
 from mc_nested.studies.outcome import writing
-from mc_nested.workers.messages import JobEnded, JobReport
+from mc_nested.workers.executor import JobEnded, JobReport
 from sim.grid import GridVectorEnv
 from sim.team_grid import team_arenas
 

@@ -1,6 +1,6 @@
-"""What is known of a cluster's workers, by what its scheduler tells."""
+"""Which workers of a cluster train what, by its scheduler's events."""
 
-from mc_nested.workers.cluster.workers_seen import WorkersSeen
+from mc_nested.workers.cluster.cluster_workers import ClusterWorkers
 
 ONE, TWO = "tcp://127.0.0.1:1", "tcp://127.0.0.1:2"
 
@@ -14,7 +14,7 @@ def went(worker: str, *, expected: bool) -> dict[str, object]:
 
 
 def test_an_unfinished_job_that_no_worker_trains_counts_as_waiting() -> None:
-    seen = WorkersSeen([ONE])
+    seen = ClusterWorkers([ONE])
     assert seen.in_words(3) == "1 worker, 0 jobs training, 3 waiting"
     seen.begins("a", ONE)
     seen.note(came(TWO))
@@ -26,7 +26,7 @@ def test_an_unfinished_job_that_no_worker_trains_counts_as_waiting() -> None:
 
 
 def test_a_job_whose_worker_went_is_begun_again() -> None:
-    seen = WorkersSeen([ONE, TWO])
+    seen = ClusterWorkers([ONE, TWO])
     seen.begins("a", ONE)
     seen.begins("b", TWO)
     seen.note(went(ONE, expected=False))
@@ -38,13 +38,13 @@ def test_a_job_whose_worker_went_is_begun_again() -> None:
 
 
 def test_a_worker_that_was_told_to_go_while_it_had_no_job_is_not_lost() -> None:
-    seen = WorkersSeen([ONE])
+    seen = ClusterWorkers([ONE])
     seen.note(went(ONE, expected=True))
     assert seen.in_words(0) == "0 workers, 0 jobs training, 0 waiting"
 
 
 def test_other_events_of_the_scheduler_are_ignored() -> None:
-    seen = WorkersSeen([ONE])
+    seen = ClusterWorkers([ONE])
     seen.note({"action": "retire-workers"})
     seen.note({})
     assert seen.count == 1
