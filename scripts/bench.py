@@ -26,7 +26,6 @@ BENCHES = {
     "rehearsal": "calibrating and playing in the rehearsal window, in real time",
     "learning": "updates a second, beside loops of a single run",
     "game-time": "minutes of game time from scratch to the optimum, on the virtual client",
-    "games": "how much sooner several games reach the optimum, in simulated time",
 }
 """Each is a module of scripts/benches."""
 
