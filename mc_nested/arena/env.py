@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from mc_nested.arena.action import Action, Cell
 from mc_nested.arena.drawing import draw_picture, draw_text
 from mc_nested.arena.game import Game, Resumable
-from mc_nested.arena.rules import cells_of, grid_of
+from mc_nested.arena.rules import cells_of, end_of_episode, grid_of
 from mc_nested.arena.scenario import Scenario
 from mc_nested.arena.tally import THE_ARENA, tally_of
 from mc_nested.arrays import Arrays, Int64s
@@ -152,8 +152,7 @@ class ArenaEnv(gymnasium.Env[Observation, Any]):
         if outcome.placed is not None:
             self._placed.add(outcome.placed)
         reward = 1.0 if self._pays(outcome.placed) else 0.0
-        terminated = self._blocks_left == 0
-        truncated = not terminated and self._steps >= self.scenario.step_limit
+        terminated, truncated = end_of_episode(self._blocks_left, self._steps, self.scenario.step_limit)
         self._running = not (terminated or truncated)
         info = self._info()
         if outcome.placed is not None:

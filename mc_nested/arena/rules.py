@@ -1,4 +1,4 @@
-"""The rules of the task: where a move leads and where a block lands (docs/explanation/task.md).
+"""The rules of the task: where a move leads, where a block lands, when an episode ends (docs/explanation/task.md).
 
 Cells are (x, y): x to the right, y forward, the way the agent looks for the whole episode (paper, section 5).
 ``size`` is the number of cells along each side of the arena (Scenario.size).
@@ -53,6 +53,15 @@ def landing(cell: Cell, action: Action, placed: Collection[Cell], size: int) -> 
     if action not in PLACES or not is_inside(front, size) or front in placed:
         return None
     return front
+
+
+def end_of_episode(blocks_left: int, steps: int, step_limit: int) -> tuple[bool, bool]:
+    """Return whether the episode has terminated, no block being left, and whether it is truncated at the step limit.
+
+    sim/grid_step.py says the same, compiled.
+    """
+    terminated = blocks_left == 0
+    return terminated, not terminated and steps >= step_limit
 
 
 def grid_of(cells: Collection[Cell], size: int) -> Bools:

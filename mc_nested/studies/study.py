@@ -1,6 +1,7 @@
 """What a study is: its options, the arms that they mean, and the report of what came of them.
 
-A new one is a file that declares a Study; SHIPPED names those that ``mc-nested study`` knows.
+A new one is a file that declares a Study: the smallest is in tests/studies/test_study.py, with what runs it. SHIPPED
+names those that ``mc-nested study`` knows.
 """
 
 from collections.abc import Callable, Mapping, Sequence

@@ -5,7 +5,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from mc_nested.arena.action import Action, Cell
-from mc_nested.arena.rules import STEP, cells_of, front_of, grid_of, is_inside, landing, moved
+from mc_nested.arena.rules import STEP, cells_of, end_of_episode, front_of, grid_of, is_inside, landing, moved
 
 SIZE = 15
 
@@ -57,6 +57,16 @@ def test_a_move_without_d_places_nothing() -> None:
 
 def test_a_block_outside_the_arena_is_void() -> None:
     assert landing((7, 14), Action.LD, (), SIZE) is None
+
+
+@pytest.mark.parametrize(
+    ("blocks_left", "steps", "end"),
+    [(1, 9, (False, False)), (1, 10, (False, True)), (0, 9, (True, False)), (0, 10, (True, False))],
+)
+def test_an_episode_terminates_with_the_last_block_and_is_truncated_at_the_step_limit(
+    blocks_left: int, steps: int, end: tuple[bool, bool]
+) -> None:
+    assert end_of_episode(blocks_left, steps, step_limit=10) == end
 
 
 def test_a_block_onto_a_block_is_void() -> None:

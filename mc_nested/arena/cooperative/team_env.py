@@ -20,7 +20,7 @@ from mc_nested.arena.cooperative.team import Team, TeamGame
 from mc_nested.arena.drawing import AGENT_BODY, CELL_PX, Colour, Picture, draw_agent, draw_picture, kind_of
 from mc_nested.arena.env import highest_observation, space_up_to
 from mc_nested.arena.game import Resumable
-from mc_nested.arena.rules import cells_of, grid_of
+from mc_nested.arena.rules import cells_of, end_of_episode, grid_of
 from mc_nested.arena.vector import METADATA, NO_ACTION, reset_options, taken_apart
 from mc_nested.arrays import Arrays, Bools, Float64s, Int64s
 
@@ -139,8 +139,8 @@ class TeamVectorEnv(VectorEnv[Int64s, Int64s, Any]):
         self._cells[self._rows(run)] = [outcome.cell for outcome in outcomes]
         self._placed[run] |= {outcome.placed for outcome in outcomes if outcome.placed is not None}
         self._ticks[run] += 1
-        terminated = len(self._placed[run]) == scenario.blocks
-        truncated = not terminated and self._ticks[run] >= scenario.step_limit
+        left = scenario.blocks - len(self._placed[run])
+        terminated, truncated = end_of_episode(left, int(self._ticks[run]), scenario.step_limit)
         self._terminated[run], self._truncated[run] = terminated, truncated
         rewards = np.array([1.0 if outcome.placed in scenario.design else 0.0 for outcome in outcomes])
         is_over = terminated or truncated
