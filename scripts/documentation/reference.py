@@ -1,5 +1,7 @@
 """The reference of the command line and of errors, made from the code."""
 
+from typing import Any
+
 import typer
 from typer.cli import get_docs_for_click
 
@@ -11,7 +13,15 @@ from scripts.documentation.markdown_text import code, of_docstring, table
 def command_line() -> str:
     """Describe every verb, argument and option, as Typer does it."""
     command = app_for(())
+    _tell_whole_summaries(command)
     return get_docs_for_click(obj=command, ctx=typer.Context(command), name="mc-nested", indent=1)
+
+
+def _tell_whole_summaries(command: Any) -> None:
+    """Let lists of verbs give the whole first paragraph of each one's help, which is cut otherwise."""
+    for below in getattr(command, "commands", {}).values():
+        below.short_help = " ".join((below.help or "").partition("\n\n")[0].split())
+        _tell_whole_summaries(below)
 
 
 def error_tree() -> str:
