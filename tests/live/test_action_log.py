@@ -9,7 +9,7 @@ from mc_nested.errors import NotConfirmedError, StoppedError
 from mc_nested.live.action_log import MOST_IN_A_ROW, PROGRESS, ActionLog, Effort, FailureBudget, percentile
 
 
-def test_percentiles_are_values_that_shares_lie_below() -> None:
+def test_percentiles_are_interpolated_and_none_without_values() -> None:
     assert percentile([float(value) for value in range(101)], 50) == 50.0
     assert percentile([float(value) for value in range(101)], 95) == 95.0
     assert percentile([0.25], 95) == 0.25
@@ -56,12 +56,12 @@ def test_failures_with_progress_between_them_do_not_end_the_training() -> None:
         failure_budget.record_failure(ERROR, episode * PROGRESS)
 
 
-def test_a_person_who_stops_the_game_ends_the_training_at_once() -> None:
+def test_a_stopped_game_ends_the_training_at_the_first_failure() -> None:
     with pytest.raises(StoppedError):
         FailureBudget().record_failure(StoppedError("the panic key was pressed"), 0)
 
 
-def test_progress_is_counted_from_the_last_failure_and_starts_the_row_at_one() -> None:
+def test_progress_since_the_last_failure_restarts_the_count_of_failures_at_one() -> None:
     failure_budget = FailureBudget()
     steps = 0
     for _ in range(MOST_IN_A_ROW):

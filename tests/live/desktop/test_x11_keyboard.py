@@ -59,14 +59,14 @@ def test_a_letter_of_the_layout_is_typed_by_pynput_and_leaves_the_layout_alone(m
     assert display.changed == {}
 
 
-def test_a_window_that_closes_while_it_is_typed_into_is_one_line(module: Any) -> None:
+def test_a_window_that_closes_during_typing_is_a_one_line_error(module: Any) -> None:
     sender, typist = sender_of(module, FakeXDisplay(spare=20))
     typist.is_window_gone = True
     with pytest.raises(DesktopError, match="the window that was typed into has closed: start the game again"):
         sender.type("t")
 
 
-def test_a_letter_that_is_interrupted_after_its_press_goes_up_again(module: Any) -> None:
+def test_a_letter_interrupted_after_its_press_is_released(module: Any) -> None:
     sender, typist = sender_of(module, FakeXDisplay(spare=20))
     typist.is_interrupted = True
     with pytest.raises(KeyboardInterrupt):
@@ -74,7 +74,7 @@ def test_a_letter_that_is_interrupted_after_its_press_goes_up_again(module: Any)
     assert typist.sent == [("press", "t"), ("release", "t")]
 
 
-def test_any_other_letter_is_written_on_the_spare_key_that_has_it(module: Any) -> None:
+def test_a_letter_that_the_layout_lacks_is_typed_on_a_spare_key(module: Any) -> None:
     display = FakeXDisplay(spare=25)
     sender, typist = sender_of(module, display)
     sender.type("~")
@@ -86,7 +86,7 @@ def test_any_other_letter_is_written_on_the_spare_key_that_has_it(module: Any) -
     assert typist.sent == []
 
 
-def test_the_keys_are_lent_once_for_all_letters(module: Any) -> None:
+def test_the_spare_keys_are_changed_only_once_for_all_letters(module: Any) -> None:
     display = FakeXDisplay(spare=25)
     sender, _ = sender_of(module, display)
     sender.type("~")
@@ -95,7 +95,7 @@ def test_the_keys_are_lent_once_for_all_letters(module: Any) -> None:
     assert changes == display.changes
 
 
-def test_a_letter_for_which_no_key_is_left_is_an_error_and_nothing_is_written(module: Any) -> None:
+def test_a_letter_without_a_spare_key_is_refused_and_nothing_is_typed(module: Any) -> None:
     display = FakeXDisplay(spare=1)
     sender, typist = sender_of(module, display)
     for character in ("~", "木"):
@@ -104,7 +104,7 @@ def test_a_letter_for_which_no_key_is_left_is_an_error_and_nothing_is_written(mo
     assert (typist.sent, display.window.events) == ([], [])
 
 
-def test_without_a_window_that_has_the_keyboard_nothing_is_written(module: Any) -> None:
+def test_nothing_is_typed_on_a_spare_key_while_no_window_has_the_focus(module: Any) -> None:
     display = FakeXDisplay(spare=25)
     sender, _ = sender_of(module, display)
     display.get_input_focus = lambda: SimpleNamespace(focus=X.PointerRoot)  # type: ignore[method-assign]

@@ -25,18 +25,18 @@ def test_each_character_has_its_own_key_and_state() -> None:
     ]
 
 
-def test_no_place_on_a_lent_key_stays_empty_since_a_letter_beside_nothing_has_two_cases() -> None:
+def test_free_places_on_a_lent_key_repeat_its_last_character() -> None:
     display = FakeXDisplay(spare=3)
     SpareKeys(display).lend(LETTERS)  # type: ignore[arg-type]
     assert display.changed == {SPARE: LETTERS[:4], SPARE + 1: [ord("e"), ord("F"), ord("F"), ord("F")]}
 
 
-def test_characters_for_which_no_key_is_left_are_not_lent() -> None:
+def test_characters_without_a_spare_key_left_are_left_out() -> None:
     display = FakeXDisplay(spare=1)
     assert list(SpareKeys(display).lend(LETTERS)) == LETTERS[:4]  # type: ignore[arg-type]
 
 
-def test_the_keys_are_changed_in_one_go_and_again_once_windows_have_reread_the_layout(
+def test_the_keys_are_changed_together_and_again_after_a_pause(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     display = FakeXDisplay(spare=3)
@@ -47,14 +47,14 @@ def test_the_keys_are_changed_in_one_go_and_again_once_windows_have_reread_the_l
     assert (display.changes, display.syncs) == (4, 2)
 
 
-def test_without_keys_to_lend_nothing_is_waited_for(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_lending_no_characters_changes_no_key_and_does_not_wait(monkeypatch: pytest.MonkeyPatch) -> None:
     display = FakeXDisplay(spare=3)
     monkeypatch.setattr("time.sleep", lambda _: pytest.fail("it waited"))
     assert SpareKeys(display).lend([]) == {}  # type: ignore[arg-type]
     assert display.changes == 0
 
 
-def test_the_keys_type_nothing_again_once_they_are_given_back() -> None:
+def test_spare_keys_type_nothing_after_they_are_given_back() -> None:
     display = FakeXDisplay(spare=3)
     before = list(display.rows)
     keys = SpareKeys(display)  # type: ignore[arg-type]

@@ -24,7 +24,7 @@ def test_any_other_point_is_no_corner(point: tuple[int, int]) -> None:
 
 
 @pytest.mark.realtime
-def test_a_key_that_is_held_past_its_time_goes_up_though_nobody_waits() -> None:
+def test_the_watchdog_thread_releases_an_overdue_key() -> None:
     game = FakeGame(Profile())
     controller = InputController(devices_of(game), game.profile.input)
     controller.confirm_screen("world")
@@ -38,7 +38,7 @@ def test_a_key_that_is_held_past_its_time_goes_up_though_nobody_waits() -> None:
 
 
 @pytest.mark.realtime
-def test_what_is_held_for_a_while_is_left_alone() -> None:
+def test_the_watchdog_thread_leaves_a_key_down_until_it_is_overdue() -> None:
     game = FakeGame(Profile())
     controller = InputController(devices_of(game), game.profile.input)
     controller.confirm_screen("world")
