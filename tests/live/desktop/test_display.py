@@ -19,7 +19,9 @@ def regions(draw: st.DrawFn, width: int, height: int) -> Region:
 
 @pytest.mark.parametrize("ratio", [1, 2], ids=["points are pixels", "two pixels to a point"])
 @given(data=st.data())
-def test_grabbing_a_region_gives_that_part_of_the_whole_picture_wherever_the_window_is(ratio: int, data: st.DataObject) -> None:
+def test_grabbing_a_region_gives_that_part_of_the_whole_picture_wherever_the_window_is(
+    ratio: int, data: st.DataObject
+) -> None:
     window = MovingWindow(DesktopArea(5, 7, 40, 30), ratio)
     display = WindowDisplay(window, window.picture)
     window.at = DesktopArea(data.draw(st.integers(0, 40)), data.draw(st.integers(0, 30)), 40, 30)

@@ -78,9 +78,7 @@ def test_text_arrives_to_the_letter(layout: str, desktop: dict[str, str], lwjgl_
     assert window_probed(desktop, "text", COMMAND, TITLE, lwjgl_program) == {"text": COMMAND}
 
 
-def test_a_hundred_clicks_do_not_move_a_held_mouse(
-    desktop: dict[str, str], lwjgl_program: list[str]
-) -> None:
+def test_a_hundred_clicks_do_not_move_a_held_mouse(desktop: dict[str, str], lwjgl_program: list[str]) -> None:
     clicks = window_probed(desktop, "clicks", None, TITLE, lwjgl_program)
     assert clicks == {"has raw motion": True, "moves": True, "button": 200, "cursor": 0}
 

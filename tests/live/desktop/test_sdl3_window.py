@@ -35,9 +35,7 @@ def test_keys_go_by_place_and_text_arrives_to_the_letter(desktop: dict[str, str]
     assert window_probed(desktop, "text", COMMAND, TITLE, sdl_program) == {"text": COMMAND}
 
 
-def test_a_hundred_clicks_do_not_move_a_held_mouse(
-    desktop: dict[str, str], sdl_program: list[str]
-) -> None:
+def test_a_hundred_clicks_do_not_move_a_held_mouse(desktop: dict[str, str], sdl_program: list[str]) -> None:
     clicks = window_probed(desktop, "clicks", None, TITLE, sdl_program)
     assert (clicks["button"], clicks["cursor"]) == (200, 0)
     assert clicks["moves"] is (sdl_program[-1].endswith(".0.4.18")), "SDL 3.2 takes no absolute movement for one, here"

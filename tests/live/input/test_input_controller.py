@@ -105,9 +105,7 @@ def test_nothing_is_pressed_while_another_window_is_in_front(press: str) -> None
 
 @pytest.mark.parametrize("press", ["hold", "tap", "click", "click_at", "hover", "type_line"])
 @pytest.mark.parametrize("seen", ["world", "chat", "menu"])
-def test_a_press_for_a_screen_that_was_not_just_seen_is_refused(
-    press: str, seen: PressTarget
-) -> None:
+def test_a_press_for_a_screen_that_was_not_just_seen_is_refused(press: str, seen: PressTarget) -> None:
     wanted = {"click_at": "menu", "hover": "menu", "type_line": "chat"}.get(press, "world")
     game = FakeGame(PROFILE)
     controller = _controller(game)
@@ -340,9 +338,7 @@ def test_hovering_presses_nothing() -> None:
     ("off", "is_clicked"),
     [((3, 3), True), ((-3, -3), True), ((4, 0), False), ((0, 4), False), ((-4, 0), False), ((0, -4), False)],
 )
-def test_a_click_is_refused_if_the_mouse_has_been_moved_meanwhile(
-    off: tuple[int, int], is_clicked: bool
-) -> None:
+def test_a_click_is_refused_if_the_mouse_has_been_moved_meanwhile(off: tuple[int, int], is_clicked: bool) -> None:
     class Drifting(FakeMenus):
         """The mouse ends up a little beside where it was moved to."""
 

@@ -146,7 +146,9 @@ def test_recovery_from_a_server_presses_nothing_on_screens_outside_the_world(sho
         ("Minecraft 1.20.1 - Singleplayer", SERVER, "was your own, and is a server's now"),
     ],
 )
-def test_recovery_refuses_a_servers_world_after_an_own_one_and_the_reverse(before: str, after: str, message: str) -> None:
+def test_recovery_refuses_a_servers_world_after_an_own_one_and_the_reverse(
+    before: str, after: str, message: str
+) -> None:
     menus = FakeMenus(window_title=before)
     recovery = recovery_in(menus)
     menus.window_title = after

@@ -34,7 +34,9 @@ blocks = st.tuples(st.integers(-1000, 1000), st.integers(-60, 300), st.integers(
     ("facing", "block"),
     [("north", (12, 64, -5)), ("south", (8, 64, 1)), ("west", (7, 64, -4)), ("east", (13, 64, 0))],
 )
-def test_a_cell_two_right_and_three_forward_is_the_expected_block_for_each_facing(facing: Facing, block: tuple[int, int, int]) -> None:
+def test_a_cell_two_right_and_three_forward_is_the_expected_block_for_each_facing(
+    facing: Facing, block: tuple[int, int, int]
+) -> None:
     assert block_of((10, 64, -2), facing, (2, 3)) == block
 
 

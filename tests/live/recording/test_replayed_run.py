@@ -64,7 +64,9 @@ def test_a_replay_with_a_changed_glyph_reports_differing_readings(recording: Pat
     assert seen.followed == 60  # play is followed on as it was read then
 
 
-def test_a_replay_reports_a_recorded_press_of_another_key_as_a_differing_decision(recording: Path, tmp_path: Path) -> None:
+def test_a_replay_reports_a_recorded_press_of_another_key_as_a_differing_decision(
+    recording: Path, tmp_path: Path
+) -> None:
     calls = calls_of(recording)
     second = [at for at, each in enumerate(calls) if each.call[:2] == ["note", "resets"]][1]
     changed = next(at for at, each in enumerate(calls[:second]) if at > 300 and each.call[:3] == ["key", "press", "a"])

@@ -156,7 +156,9 @@ def test_ink_more_than_4_darker_than_the_known_colour_is_not_found() -> None:
 @pytest.mark.parametrize(
     ("layout", "label", "is_found"), [("1.16-1.19.2", "Targeted ", False), ("standin", "Looking at:", True)]
 )
-def test_a_line_outside_the_grid_is_ignored_in_vanilla_and_found_in_the_stand_in(layout: Layout, label: str, is_found: bool) -> None:
+def test_a_line_outside_the_grid_is_ignored_in_vanilla_and_found_in_the_stand_in(
+    layout: Layout, label: str, is_found: bool
+) -> None:
     frame = painted(screen(layout))
     right = frame[:, 2 * 215 :]
     right[:] = np.roll(right, 2, axis=0)  # a dot lower

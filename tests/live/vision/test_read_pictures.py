@@ -83,9 +83,7 @@ def test_a_png_without_a_debug_screen_is_not_called_a_jpeg(tmp_path: Path) -> No
 
 
 @pytest.mark.parametrize(("left", "top"), [(100, 62), (0, 0)])
-def test_a_picture_with_the_desktop_around_the_window_says_to_cut_it_off(
-    left: int, top: int, tmp_path: Path
-) -> None:
+def test_a_picture_with_the_desktop_around_the_window_says_to_cut_it_off(left: int, top: int, tmp_path: Path) -> None:
     screen = F3Screen("1.16-1.19.2", 2, (8.5, 64.0, -3.25), 0.0, -65.0)
     desktop = np.full((top + 480 + 100, left + 854 + 300, 3), 90, np.uint8)
     desktop[top : top + 480, left : left + 854] = paint(np.full((480, 854, 3), 60, np.uint8), screen, FONT)

@@ -86,7 +86,9 @@ def test_a_debug_profile_replaces_all_entries_and_a_missing_one_leaves_the_defau
         ('{"DataVersion":"x","custom":{"minecraft:fps":"inF3"}}', MIDDLE, {"fps": "inOverlay"}),
     ],
 )
-def test_the_word_for_entries_shown_with_f3_depends_on_the_version(text: str, edition: Edition, expected: object) -> None:
+def test_the_word_for_entries_shown_with_f3_depends_on_the_version(
+    text: str, edition: Edition, expected: object
+) -> None:
     assert parse_profile(text, edition) == expected
 
 

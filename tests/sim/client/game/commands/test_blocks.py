@@ -169,9 +169,7 @@ def test_1_12_executes_a_command_if_it_detects_a_block() -> None:
     "inner", ["nonsense", "nonsense 1", "", "testforblocks 1", "execute if block 2 64 2 air run x"]
 )
 @pytest.mark.parametrize("condition", ["if", "unless"])
-def test_execute_with_an_unknown_command_is_refused_whatever_its_condition(
-    condition: str, inner: str
-) -> None:
+def test_execute_with_an_unknown_command_is_refused_whatever_its_condition(condition: str, inner: str) -> None:
     played = realm("1.20.1")
     answers = run(f"/execute {condition} block 2 80 2 air run {inner}", played)
     assert answers[0] == Answer("Unknown or incomplete command, see below for error", is_error=True)
