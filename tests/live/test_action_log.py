@@ -17,7 +17,7 @@ def test_percentiles_are_interpolated_and_none_without_values() -> None:
     assert percentile([], 50) is None
 
 
-def test_the_summary_counts_what_the_body_did() -> None:
+def test_the_summary_has_the_bodys_counts_and_the_actions_times() -> None:
     log = ActionLog(Effort(moves=4, corrections=1, clicks=2, second_clicks=1), [0.3, 0.3, 0.5], failed_actions=1)
     assert log.summary() == {
         "actions": 3,
@@ -35,7 +35,7 @@ def test_the_summary_counts_what_the_body_did() -> None:
 ERROR = NotConfirmedError("the agent looks away")
 
 
-def test_failed_episodes_are_counted_with_what_the_last_errors_said() -> None:
+def test_failed_episodes_are_counted_and_the_last_three_messages_kept() -> None:
     failure_budget = FailureBudget()
     for steps in range(4):
         failure_budget.record_failure(NotConfirmedError(f"problem {steps}"), steps)

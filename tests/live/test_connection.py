@@ -114,7 +114,7 @@ def titled(title: str, *, is_server_allowed: bool) -> GameConnection:
     return GameConnection(devices, InputController(devices, InputTable()), is_server_allowed=is_server_allowed)
 
 
-def test_a_game_that_others_may_share_is_refused_unless_it_is_allowed() -> None:
+def test_a_shared_game_is_refused_unless_servers_are_allowed() -> None:
     with pytest.raises(DesktopError, match=r"Multiplayer \(LAN\)', so others may be playing there"):
         titled(SERVER, is_server_allowed=False).check_single_player()
     titled(SERVER, is_server_allowed=True).check_single_player()

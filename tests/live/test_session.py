@@ -50,7 +50,7 @@ def test_a_game_that_does_not_fit_its_profile_is_refused_and_no_key_is_pressed(
     assert not client.built
 
 
-def test_a_version_later_than_all_known_ones_is_played_with_one_line_about_it(tmp_path: Path) -> None:
+def test_opening_a_version_later_than_all_known_ones_says_so(tmp_path: Path) -> None:
     profile, said = saved(Profile(screen=font_in(tmp_path), arena=ARENA), tmp_path), list[str]()
     client = VirtualClient(ClientSettings(version="27.1"))
     opened = open_live_game(LINE, opening_on(client, profile, said.append))

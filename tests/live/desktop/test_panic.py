@@ -37,7 +37,7 @@ def test_the_panic_key_stops_as_soon_as_it_goes_down(name: str, heard: str) -> N
 
 
 @pytest.mark.usefixtures("moves")
-def test_no_key_but_the_panic_key_stops() -> None:
+def test_no_key_except_the_panic_key_stops() -> None:
     keys, stopped = HeardKeys(), list[str]()
     with open_panic_switch("f12", stopped.append, keys.listening):
         for name in ("f11", "w", "left.shift"):

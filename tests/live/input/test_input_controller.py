@@ -72,7 +72,7 @@ def test_a_late_clock_delays_a_hold_by_one_wake_up_and_not_by_each() -> None:
     assert game.clock.now() - start == pytest.approx(0.604)
 
 
-def test_a_click_is_as_long_as_the_profile_says_and_ends_while_something_is_waited_for() -> None:
+def test_a_click_lasts_the_profiles_time_and_ends_during_a_wait() -> None:
     game = FakeGame(Profile(input=InputTable(click_s=0.12)))
     controller = _controller(game)
     controller.click("right")
@@ -96,7 +96,7 @@ def test_the_release_time_of_a_held_key_can_be_changed() -> None:
 
 
 @pytest.mark.parametrize("press", ["hold", "tap", "click", "click_at", "hover", "type_line"])
-def test_nothing_is_pressed_while_another_window_is_in_front(press: str) -> None:
+def test_no_key_is_pressed_while_another_window_is_in_front(press: str) -> None:
     game = FakeGame(PROFILE, front_until=0.0)
     with pytest.raises(NotInFrontError, match="not in front"):
         _press(_controller(game), press)
@@ -218,7 +218,7 @@ def test_a_stop_releases_every_key_at_once_and_ends_waits_and_presses() -> None:
     assert game.presses == ["w"]
 
 
-def test_nothing_is_held_longer_than_the_longest_hold() -> None:
+def test_no_key_is_held_longer_than_the_longest_hold() -> None:
     game = FakeGame(PROFILE)
     controller = _controller(game)
     controller.press(game.clock.now() + 60.0, "w")
@@ -270,7 +270,7 @@ def test_a_changed_release_time_is_cut_to_the_longest_hold() -> None:
     assert game.down == set()
 
 
-def test_a_key_that_is_up_has_no_release_time_to_change() -> None:
+def test_changing_the_release_time_of_a_key_that_is_up_presses_nothing() -> None:
     game = FakeGame(PROFILE)
     controller = _controller(game)
     controller.keep_until(game.clock.now() + 1.0, "w")

@@ -113,7 +113,7 @@ def _texts(folder: Path) -> set[str]:
     return {path.read_text() for path in folder.rglob("*") if path.is_file() and path.name != MARKER}
 
 
-def test_the_world_becomes_the_template_and_the_last_one_is_kept(tmp_path: Path) -> None:
+def test_restore_world_replaces_the_world_by_the_template_and_keeps_the_last_one(tmp_path: Path) -> None:
     world, template = _world(tmp_path / "saves/arena", "played"), _world(tmp_path / "template", "fresh")
     (world / "extra.dat").write_text("played")
     for text in ("played", "played again"):

@@ -41,7 +41,7 @@ def test_a_cell_two_right_and_three_forward_is_the_expected_block_for_each_facin
 
 
 @given(facings)
-def test_forward_is_where_the_yaw_looks_and_right_a_quarter_turn_on(facing: Facing) -> None:
+def test_forward_points_along_the_yaw_and_right_a_quarter_turn_further(facing: Facing) -> None:
     for cell, turn in (((0, 1), 0.0), ((1, 0), 90.0)):
         x, _, z = block_of((0, 0, 0), facing, cell)
         yaw = math.radians(yaw_of(facing) + turn)

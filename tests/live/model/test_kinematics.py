@@ -20,11 +20,11 @@ from mc_nested.live.model.kinematics import (
 
 
 @pytest.mark.parametrize(("ticks", "blocks"), [(1, 0.210), (2, 0.427), (3, 0.642), (4, 0.857), (5, 1.073), (6, 1.291)])
-def test_walking_and_coasting_covers_what_the_facts_say(ticks: int, blocks: float) -> None:
+def test_holds_cover_the_distances_in_the_facts(ticks: int, blocks: float) -> None:
     assert displacement(ticks) == pytest.approx(blocks, abs=0.0006)
 
 
-def test_a_hold_of_no_ticks_walks_nowhere() -> None:
+def test_a_hold_of_zero_ticks_covers_no_distance() -> None:
     assert displacement(0) == 0.0
 
 

@@ -19,7 +19,7 @@ def test_a_step_is_surely_seen_half_a_tick_after_the_latency(latency_s: float) -
     assert surely_seen_after(latency_s) - latency_s == pytest.approx(TICK_S / 2)
 
 
-def test_half_and_third_of_a_frame_fit_two_and_three_times_into_one() -> None:
+def test_a_frame_lasts_two_half_frames_and_three_third_frames() -> None:
     assert HALF_FRAME_S * 2 == FRAME_S < TICK_S
     assert pytest.approx(FRAME_S) == THIRD_FRAME_S * 3
 

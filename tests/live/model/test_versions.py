@@ -43,7 +43,7 @@ def test_version_numbers_that_minecraft_never_has_are_not_minecrafts(version: st
 
 
 @pytest.mark.parametrize(("version", "is_later"), [("1.21", False), ("26.4.9", False), ("26.5", True), ("27.1", True)])
-def test_a_version_later_than_all_that_are_known_is_played_with_one_line_about_it(version: str, is_later: bool) -> None:
+def test_only_a_version_later_than_all_known_ones_has_one_line_about_it(version: str, is_later: bool) -> None:
     line = later_version_line(version)
     assert (line is not None) == is_later
     assert line is None or (line.startswith(f"Minecraft {version} is later than 26.4") and "\n" not in line)

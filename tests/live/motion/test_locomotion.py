@@ -80,7 +80,9 @@ def test_the_axis_with_the_larger_offset_is_walked(right: float, forward: float,
 
 
 @given(st.sampled_from([1, 2, 3, 5, 8]), st.floats(0.0, 0.049), st.floats(0.0, 0.05))
-def test_with_a_known_tick_phase_a_hold_is_felt_by_exactly_its_ticks(ticks: int, phase: float, later: float) -> None:
+def test_a_hold_is_felt_for_exactly_its_ticks_once_the_tick_phase_is_known(
+    ticks: int, phase: float, later: float
+) -> None:
     walk = Walk(phase=phase)
     walk.know_ticks()
     walk.game.clock.time += later

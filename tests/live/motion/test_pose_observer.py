@@ -114,7 +114,7 @@ def test_an_incomplete_reading_is_an_error_after_5_s(reading: Reading, observed:
     assert observed.game.clock.now() - began == pytest.approx(5.0, abs=FRAME_S)
 
 
-def test_a_step_between_two_looks_a_frame_apart_is_a_sighting(observed: Observed) -> None:
+def test_a_step_between_two_looks_a_frame_apart_is_counted(observed: Observed) -> None:
     observed.observer.look()
     since = observed.game.clock.now()
     at = observed.pass_time(FRAME_S)
@@ -125,7 +125,7 @@ def test_a_step_between_two_looks_a_frame_apart_is_a_sighting(observed: Observed
     assert observed.steps.seen == [(since, at)]
 
 
-def test_a_step_after_a_longer_time_or_an_unreadable_frame_is_no_sighting(observed: Observed) -> None:
+def test_a_step_after_a_longer_time_or_an_unreadable_frame_is_not_counted(observed: Observed) -> None:
     observed.observer.look()
     observed.pass_time(1.6 * FRAME_S)
     observed.walk_to(7.6)
@@ -147,7 +147,7 @@ def test_an_awaited_step_seen_by_the_first_look_counts_as_unseen_a_frame_before(
     assert observed.steps.seen == [pytest.approx((at - FRAME_S, at))]
 
 
-def test_an_awaited_step_seen_by_a_later_look_is_no_sighting(observed: Observed) -> None:
+def test_an_awaited_step_seen_only_by_a_later_look_is_not_counted(observed: Observed) -> None:
     observed.observer.note_awaited_step()
     observed.observer.wait_for_step(observed.game.clock.now())
     observed.pass_time(FRAME_S)
@@ -300,7 +300,7 @@ def test_the_tick_phase_is_unknown_after_few_sightings() -> None:
     assert not tick_phase.is_known
 
 
-def test_a_game_without_ticks_has_no_phase() -> None:
+def test_steps_at_random_times_give_no_tick_phase() -> None:
     tick_phase, rng = TickPhase(), random.Random(1)  # noqa: S311
     for _ in range(60):
         seen = rng.uniform(0, 100)

@@ -50,9 +50,7 @@ def test_a_profiles_arena_has_15_to_32_cells_a_side(size: int, is_valid: bool) -
 
 
 @pytest.mark.parametrize(("needs", "gets"), [(5, 15), (15, 15), (16, 16), (32, 32)])
-def test_a_scenario_gets_an_arena_as_large_as_it_needs_and_never_a_smaller_one_than_the_papers(
-    needs: int, gets: int
-) -> None:
+def test_a_scenario_needs_an_arena_of_its_own_size_but_at_least_15_cells(needs: int, gets: int) -> None:
     assert size_for(Scenario("any", frozenset({(1, 1)}), (0, 0), 9, (Material("stone", 0.0, "stone"),), needs)) == gets
 
 
@@ -80,7 +78,7 @@ def test_more_marked_blocks_than_one_fill_takes_are_refused(height: int, is_vali
         Arena.around((0, 64, 0), "north", height)
 
 
-def test_exactly_as_many_blocks_as_one_command_may_fill_are_fine() -> None:
+def test_exactly_as_many_marked_blocks_as_one_fill_takes_are_allowed() -> None:
     # 32 x 32 x 32 blocks.
     arena = Arena(origin=(0, 64, 0), facing="south", marked=((-31, 64, 0), (0, 95, 31)))
     assert arena.region == ((-31, 64, 0), (0, 95, 31))

@@ -208,7 +208,7 @@ def test_undo_changes_nothing_without_a_readable_earlier_profile(tmp_path: Path)
 
 
 @pytest.mark.parametrize("written", [0, 2])
-def test_profile_of_another_format_is_one_line_that_says_so(written: int) -> None:
+def test_a_profile_of_another_format_is_an_error_that_says_so(written: int) -> None:
     text = f"[calibrated]\nformat = {written}\ndate = '2027-01-01'\n[walking]\nspeed = 4.3\n"
     with pytest.raises(ProfileError) as caught:
         parse_profile(text, "mine.toml")

@@ -117,7 +117,7 @@ def test_trimming_leaves_one_file_with_the_end_of_the_recording(recording: Path,
     assert [path.name for path in folder.iterdir()] == ["00001.mcap"]
 
 
-def test_a_replay_takes_the_same_materials_in_hand(tmp_path: Path) -> None:
+def test_a_replay_follows_a_run_with_two_materials(tmp_path: Path) -> None:
     record_play(tmp_path / "flag", 12, scenario_name="flag")
     taken = [call.call[2]["material"] for call in calls_of(tmp_path / "flag") if call.call[:2] == ["note", "acts"]]
     assert set(taken) == {0, 1}

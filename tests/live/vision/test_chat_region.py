@@ -268,7 +268,7 @@ RESET = (
 
 
 @pytest.mark.parametrize("version", ["1.12.2", "1.13.2", "1.14.4", "1.15.2", "1.16.5", "1.20.1"])
-def test_after_each_command_of_two_resets_the_debug_screen_is_read_in_the_smallest_window(version: str) -> None:
+def test_the_smallest_window_is_read_after_each_command_of_two_resets(version: str) -> None:
     client = VirtualClient(version=version, size=(854, 480), scale=2, pitch=65.0)
     connection = connection_to(client)
     chat = Chat(Profile(game=GameVersion(version=version)), connection)

@@ -94,7 +94,7 @@ def test_a_label_almost_wholly_hidden_by_letters_is_not_found() -> None:
 
 
 @pytest.mark.parametrize("shape", [(0, 0), (10, 10), (7, 900), (300, 60)])
-def test_a_frame_too_small_for_a_label_has_none(shape: tuple[int, int]) -> None:
+def test_no_label_is_found_in_a_frame_too_small_for_it(shape: tuple[int, int]) -> None:
     assert found(np.full((*shape, 3), 156, np.uint8)) is None
 
 

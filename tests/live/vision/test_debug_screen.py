@@ -179,7 +179,7 @@ def test_an_overlay_of_another_scale_is_a_problem() -> None:
     assert "GUI scale 3" in (read_debug_screen(painted(screen()), FONT, Overlay(3, VANILLA, (224,) * 3)).problem or "")
 
 
-def test_without_a_debug_screen_there_is_no_overlay() -> None:
+def test_find_overlay_gives_none_without_a_debug_screen() -> None:
     assert find_overlay(world(2), FONT) is None
 
 

@@ -78,7 +78,7 @@ def test_ink_is_where_green_is_bright_enough() -> None:
         (1440, 2560, 8, 173, 320),
     ],
 )
-def test_a_dot_counts_where_its_middle_is_in_the_frame(
+def test_a_dot_counts_if_its_middle_pixel_is_in_the_frame(
     height: int, width: int, scale: int, rows: int, columns: int
 ) -> None:
     grid = GlyphGrid(np.zeros((height, width, 3), np.uint8), scale, 200)

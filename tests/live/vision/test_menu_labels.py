@@ -143,7 +143,7 @@ def test_text_without_a_shadow_is_not_a_label() -> None:
 
 
 @pytest.mark.parametrize("shape", [(0, 0), (1, 1), (7, 900), (30, 30)])
-def test_a_frame_too_small_for_a_button_has_none(shape: tuple[int, int]) -> None:
+def test_no_button_is_found_in_a_frame_too_small_for_it(shape: tuple[int, int]) -> None:
     assert MenuLabels(np.full((*shape, 3), 255, np.uint8), FONT).button("Respawn").middle is None
 
 

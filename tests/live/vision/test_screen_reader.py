@@ -98,7 +98,7 @@ def test_lines_that_moved_are_found_and_remembered() -> None:
 
 
 @pytest.mark.parametrize("size", [(1000, 480), (700, 480), (860, 260), (330, 60)])
-def test_a_window_of_another_size_reads_as_with_a_new_reader(size: tuple[int, int]) -> None:
+def test_a_resized_window_is_read_as_by_a_new_reader(size: tuple[int, int]) -> None:
     reader, pictures = opened(screen())
     pictures.frame = painted(screen(x=9.5), *size)
     assert reader.read() == read_debug_screen(pictures.frame, FONT)
@@ -162,7 +162,7 @@ def spoilt(frame: Frame, name: str) -> Frame:
 
 
 @pytest.mark.parametrize("name", ["black", "dimmed", "covered", "shifted"])
-def test_a_damaged_frame_reads_as_with_a_new_reader_and_the_next_one_is_read(name: str) -> None:
+def test_a_damaged_frame_is_read_as_by_a_new_reader_and_does_not_disturb_the_next(name: str) -> None:
     reader, pictures = opened(screen())
     pictures.frame = spoilt(painted(screen()), name)
     assert reader.read() == read_debug_screen(pictures.frame, FONT)
@@ -171,7 +171,7 @@ def test_a_damaged_frame_reads_as_with_a_new_reader_and_the_next_one_is_read(nam
 
 
 @given(st.sampled_from(LAYOUTS), st.sampled_from(WORLDS), st.integers(0, 2**32 - 1))
-def test_two_screens_after_each_other_are_read_as_each_alone(layout: Layout, kind: str, seed: int) -> None:
+def test_successive_screens_are_read_as_by_a_new_reader(layout: Layout, kind: str, seed: int) -> None:
     rng = np.random.default_rng(seed)
     pictures = Pictures(np.zeros((480, 860, 3), np.uint8))
     reader = ScreenReader(pictures, FONT)

@@ -36,7 +36,7 @@ def test_a_screen_opens_over_the_world(kind: Kind) -> None:
     assert struck(kind).game.screen == kind
 
 
-def test_a_disconnect_shows_its_screen_and_the_title_says_no_world() -> None:
+def test_a_disconnect_shows_its_screen_and_removes_the_worlds_state_from_the_title() -> None:
     client = struck("disconnect")
     assert client.game.screen == "disconnected"
     assert client.display.title() == "Minecraft 1.20.1"
@@ -248,7 +248,7 @@ def test_a_window_is_moved_by_up_to_200_pixels_either_way() -> None:
     assert np.abs(shifts).max() <= 200
 
 
-def test_a_knock_has_one_strength_in_any_direction() -> None:
+def test_a_knock_pushes_the_player_with_a_fixed_strength() -> None:
     velocity = target_of("knocked_away", 1).game.realm.player.velocity
     assert np.hypot(velocity[0], velocity[2]) == pytest.approx(0.4)
     assert velocity[1] == pytest.approx(0.36 - 0.0784)

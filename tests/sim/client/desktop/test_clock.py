@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from sim.client.desktop.clock import Frames, VirtualClock
 
 
-def test_what_is_due_happens_at_its_time_and_in_order() -> None:
+def test_planned_events_happen_at_their_times_and_in_order() -> None:
     clock = VirtualClock(10.0)
     seen: list[tuple[str, float]] = []
 

@@ -24,7 +24,7 @@ def texts(screen: F3Screen) -> tuple[list[str], list[str]]:
     return [line.text for line in left_lines(screen)], [line.text for line in right_lines(screen)]
 
 
-def test_the_lines_of_1_12_say_what_the_facts_say() -> None:
+def test_the_lines_of_1_12_match_the_facts() -> None:
     left, right = texts(SCREEN)
     for line in (
         "XYZ: -8.500 / 64.00000 / 100.250",
@@ -55,7 +55,7 @@ def test_each_layout_writes_the_lines_of_its_versions(layout: Layout, line: str)
     assert line in left + right
 
 
-def test_reduced_debug_info_leaves_no_position() -> None:
+def test_reduced_debug_info_hides_the_position() -> None:
     left, right = texts(dataclasses.replace(SCREEN, reduced=True))
     assert "Chunk-relative: 7 0 4" in left
     assert not [line for line in left + right if line.startswith(("XYZ", "Block:", "Facing", "Looking", "minecraft:"))]

@@ -125,7 +125,7 @@ def test_a_noon_is_bright_and_a_night_is_dark() -> None:
     assert world("dark").max() < 30
 
 
-def test_a_gradient_changes_from_left_to_right_alone() -> None:
+def test_a_gradient_changes_only_from_left_to_right() -> None:
     picture = world("gradient")
     assert (picture == picture[:1]).all()
     assert not (picture == picture[:, :1]).all()

@@ -51,7 +51,7 @@ def test_the_sky_is_above_the_horizon_and_the_floor_below_it() -> None:
     assert picture[99, 100].tolist() == shade("bedrock", 1.0)
 
 
-def test_a_block_is_seen_where_it_stands_in_its_colour_with_the_light_of_its_side() -> None:
+def test_a_block_is_drawn_at_its_place_in_its_colour_and_its_sides_light() -> None:
     # Its face is 2.5 blocks ahead, its middle 1.12 lower than the eye: 50 + 50 * 1.12 / 2.5 / 0.7002 = 82.
     picture = drawn(sight({(0, 64, 3): "stone"}))
     assert picture[82, 100].tolist() == shade("stone", 0.8)

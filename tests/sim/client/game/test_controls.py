@@ -65,7 +65,7 @@ def test_a_key_pressed_in_the_world_is_held_until_it_is_released() -> None:
     assert played.game.keys.physical == set()
 
 
-def test_f3_toggles_the_debug_screen_on_release_in_a_world_alone() -> None:
+def test_f3_toggles_the_debug_screen_on_release_and_only_in_a_world() -> None:
     played = Played()
     played.controls.key("f3", is_down=True)
     assert played.game.has_f3
@@ -160,7 +160,7 @@ def test_o_opens_the_friends_since_26_2_and_closes_them(screen: ScreenName) -> N
 
 
 @pytest.mark.parametrize("screen", ["chat", "inventory", "death", "worlds", "debug_options"])
-def test_o_opens_no_friends_over_other_screens(screen: ScreenName) -> None:
+def test_o_does_not_open_the_friends_over_other_screens(screen: ScreenName) -> None:
     played = Played("26.2", screen)
     played.tap("o")
     assert played.game.screen == screen

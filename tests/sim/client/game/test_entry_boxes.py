@@ -26,7 +26,7 @@ def test_the_default_boxes_stand_in_their_preferred_columns() -> None:
     assert right == ["Minecraft 26.4 (26.4/vanilla)", "Memory", "Performance Impactors", "System Specs"]
 
 
-def test_position_and_block_say_what_the_facts_say() -> None:
+def test_the_position_and_block_boxes_match_the_facts() -> None:
     lines = [line.text for line in (*left_lines(SCREEN), *right_lines(SCREEN))]
     for line in (
         "XYZ: -12.300 / -59.00000 / -6.011",
@@ -56,7 +56,7 @@ def test_a_fluids_and_an_entitys_box_have_the_blocks_labels() -> None:
     assert "Coordinates: 0.50, 64.00, 2.50" in lines
 
 
-def test_without_a_block_looked_at_there_is_no_box_for_it() -> None:
+def test_a_screen_without_a_target_block_has_no_box_for_one() -> None:
     assert not [column for column in titles(dataclasses.replace(SCREEN, target=None)) if "Looking At Block" in column]
 
 

@@ -38,7 +38,7 @@ def test_the_last_of_two_lines_for_one_option_counts() -> None:
         ("textBackgroundOpacity:1.5", "textBackgroundOpacity can't be '1.5'"),
     ],
 )
-def test_a_line_that_is_no_option_is_refused(line: str, problem: str) -> None:
+def test_a_line_that_is_not_an_option_is_refused(line: str, problem: str) -> None:
     with pytest.raises(UserError, match=problem):
         parse_options([line], NEWEST)
 

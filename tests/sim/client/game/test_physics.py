@@ -51,7 +51,7 @@ def test_a_hold_and_its_coasting_are_two_geometric_series(held: int, gait: Gait,
     assert displacement(held, gait) == pytest.approx(covered(held, PUSH * factor), abs=1e-9)
 
 
-def test_walking_covers_what_the_facts_say() -> None:
+def test_holds_cover_the_distances_in_the_facts() -> None:
     assert [round(displacement(held, "walk"), 3) for held in range(1, 7)] == [0.210, 0.427, 0.642, 0.857, 1.073, 1.291]
     assert displacement(0, "walk") == 0
 

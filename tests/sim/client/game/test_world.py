@@ -28,7 +28,7 @@ def test_a_fill_does_the_same_as_putting_every_block(fills: list[tuple[Block, Bl
         assert world.is_solid(*block) == (name != AIR)
 
 
-def test_only_what_differs_from_the_floor_is_built() -> None:
+def test_only_blocks_that_differ_from_the_bare_floor_count_as_built() -> None:
     world = VirtualWorld(64, "dirt")
     assert world.put((0, 64, 0), "stone")
     assert not world.put((0, 64, 0), "stone")

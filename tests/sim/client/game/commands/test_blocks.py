@@ -14,7 +14,7 @@ def test_a_fill_covers_both_corners_in_any_order() -> None:
 
 
 @pytest.mark.parametrize(("version", "data"), [("1.12.2", "0 "), ("1.13", "")])
-def test_a_fill_that_keeps_fills_air_alone(version: str, data: str) -> None:
+def test_a_fill_with_keep_fills_only_air(version: str, data: str) -> None:
     played = realm(version)
     played.world.put((0, 63, 0), "air")
     played.world.put((1, 63, 0), "sand")
@@ -54,7 +54,7 @@ def test_a_block_is_put_relative_to_the_player() -> None:
 @pytest.mark.parametrize(
     ("version", "answer"), [("1.12.2", "8 blocks cloned"), ("1.20.1", "Successfully cloned 8 blocks")]
 )
-def test_a_region_is_copied_to_where_its_lowest_corner_is_named(version: str, answer: str) -> None:
+def test_a_region_is_copied_to_the_named_lowest_corner(version: str, answer: str) -> None:
     played = realm(version)
     assert answer_to("/clone 1 64 1 0 62 0 10 70 20", played) == (answer, False)
     assert played.world.built() == {(x, y, z): "dirt" for x in (10, 11) for y in (70, 71) for z in (20, 21)}

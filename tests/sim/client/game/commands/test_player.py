@@ -15,7 +15,7 @@ def test_a_teleport_answers_with_the_position(version: str, answer: str) -> None
     assert answer_to("/tp @s 1 70 -2.0", realm(version)) == (answer, False)
 
 
-def test_a_teleport_turns_the_player_where_it_names_a_view() -> None:
+def test_a_teleport_that_names_a_view_turns_the_player() -> None:
     played = realm()
     answer_to("/tp 1 70 -2 ~15 -20", played)
     assert (played.player.yaw, played.player.pitch) == (45.0, -20.0)
