@@ -1,4 +1,4 @@
-"""What playing took, as plain numbers.
+"""The action log's counts and percentiles, and the limit on failed episodes.
 
 Failed episodes: counted, accepted up to a limit, but never after a person stopped the game.
 """

@@ -1,4 +1,4 @@
-"""What of the project's own keys, text and clicks reaches a window of LWJGL 2, the game's to 1.12."""
+"""The project's own keys, text and clicks reach a window of LWJGL 2, the game's to 1.12."""
 
 import sys
 

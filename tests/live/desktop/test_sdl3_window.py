@@ -1,4 +1,4 @@
-"""What of the project's own keys, text and clicks reaches a window of SDL 3, the game's from 26.3 on."""
+"""The project's own keys, text and clicks reach a window of SDL 3, the game's from 26.3 on."""
 
 import sys
 from collections.abc import Iterator

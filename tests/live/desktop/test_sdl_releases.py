@@ -1,4 +1,4 @@
-"""How the libraries of the game's windows are fetched, with a stand-in for pip; nothing here needs the network."""
+"""Fetching the libraries of the game's windows, with a stand-in for pip; nothing here needs the network."""
 
 import sys
 import zipfile

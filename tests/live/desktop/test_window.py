@@ -1,4 +1,4 @@
-"""Which window is the game's, and what its client area must be."""
+"""Finding the game's window among all windows, and checks of its client area."""
 
 import re
 

@@ -1,4 +1,4 @@
-"""Which positions of the mouse are corners of a screen.
+"""The corners of a screen, and the watchdog that releases overdue keys.
 
 The watchdog: what is held too long goes up, even while the program does nothing.
 """

@@ -1,4 +1,4 @@
-"""Which screen is shown: by its labels, and by recorded points where there are none."""
+"""Identifying the screen that is shown: by its labels, and by recorded points where there are none."""
 
 import numpy as np
 import pytest

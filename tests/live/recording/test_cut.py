@@ -1,4 +1,4 @@
-"""What is taken out of a recording that others will read, and what has to stay as it is."""
+"""Cutting a recording that others will read removes names and paths, and leaves all else as it is."""
 
 from pathlib import Path
 from typing import Any

@@ -1,4 +1,4 @@
-"""Where the chat lies on a picture, by hand and against the virtual client's own chat.
+"""The chat's region on a picture, by hand and against the virtual client's own chat.
 
 The last frames before a failure, over a display of the test's own; test_chat_region.py has what is blanked.
 

@@ -1,4 +1,4 @@
-"""What is known of the layouts, beside what the virtual client paints of them."""
+"""The layouts' constants, compared with what the virtual client paints."""
 
 import numpy as np
 import pytest

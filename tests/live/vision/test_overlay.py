@@ -1,4 +1,4 @@
-"""Where the debug screen is found on painted frames: by which line, at which scale, in which colour and layout."""
+"""Finding the debug screen on painted frames: by which line, at which scale, in which colour and layout."""
 
 import dataclasses
 

@@ -1,4 +1,4 @@
-"""What lines written down say: the position and the view in each form, and each reason why they are unreadable."""
+"""Reading written lines: the position and the view in each form, and each reason why they are unreadable."""
 
 import pytest
 

@@ -1,4 +1,4 @@
-"""What changes in the middle of a run: the window's size, a scale, a screen that opens. Nothing wrong is done then."""
+"""Changes in the middle of a run: the window's size, a scale, a screen that opens. Nothing wrong is done then."""
 
 import dataclasses
 from collections.abc import Callable

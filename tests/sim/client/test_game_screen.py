@@ -1,4 +1,4 @@
-"""What is read in the virtual client's window: the chat's line, menus, and the last frames."""
+"""Reading the virtual client's window: the chat's line, menus, and the last frames."""
 
 from pathlib import Path
 
@@ -152,7 +152,7 @@ def test_a_transparent_background_of_the_chat_alone_does_not_hinder_reading() ->
 
 
 class ElsewhereScreen(WindowScreen):
-    """What reads a game that draws its chat where the game itself doesn't."""
+    """A screen that never sees the chat, as where a game draws it elsewhere."""
 
     def is_chat_open(self) -> bool:
         return False

@@ -36,7 +36,7 @@ VERSIONS = ["1.8.9", "1.12.2", "1.14.4", "1.16.5", "1.18.2", "1.20.1", "1.21.8",
 
 
 class Walked(NamedTuple):
-    """What walking took: corrections, the median action in seconds, and the longest step of a tick in blocks."""
+    """The measures of a walk: corrections, the median action in seconds, and the longest step of a tick in blocks."""
 
     corrections: int
     median_s: float

@@ -1,4 +1,4 @@
-"""What lies over the world is never taken for it, in any version, window and pair of scales; nor the world for that."""
+"""Menus and the chat are never taken for the world, nor it for them, in any version, window and pair of scales."""
 
 import dataclasses
 

@@ -31,7 +31,7 @@ def test_each_face_of_the_cube_is_two_triangles_seen_from_outside() -> None:
     assert len({tuple(normal) for normal in triangles[:, 0, 3:]}) == 6
 
 
-def test_the_floor_faces_up_and_reaches_as_far_as_blocks_are_drawn() -> None:
+def test_the_floor_is_level_and_reaches_as_far_as_blocks_are_drawn() -> None:
     corners = floor_square()[:, :3]
     assert corners.min() == -FAR
     assert corners.max() == FAR
