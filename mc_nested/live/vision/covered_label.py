@@ -43,7 +43,7 @@ class CoveredLabel(NamedTuple):
 
 
 class ShownDots:
-    """Masks of the dots of a picture (height, width, 3) that may be a label's of a shade of grey, by it and its shadow."""
+    """Masks of the dots of a picture (height, width, 3) that may be a grey label's, by their shade and shadow."""
 
     def __init__(self, picture: Frame, shade: int) -> None:
         channels: NDArray[np.uint8] = np.asarray(cv2.LUT(picture, _codes(shade)), np.uint8)

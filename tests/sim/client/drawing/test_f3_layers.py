@@ -1,6 +1,6 @@
 """The virtual client's debug screen; reading it is left to test_debug_screen.py.
 
-26.4's boxes, drawn: positions and colours of today's facts, in GUI pixels.
+26.4's boxes, drawn: positions and colours of the facts, in GUI pixels.
 """
 
 import dataclasses

@@ -1,4 +1,4 @@
-"""The entries that are on: debug-profile.json of each version (today's facts, rows 8, 14 to 16)."""
+"""The entries that are on: debug-profile.json of each version (FACTS: debug-profile.json)."""
 
 import json
 
