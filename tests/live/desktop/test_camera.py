@@ -71,7 +71,9 @@ def test_picturing_an_area_partly_off_the_screen_is_an_error(shots: Shots) -> No
 
 
 @pytest.mark.parametrize("area", [DesktopArea(-1, 0, 4, 3), DesktopArea(97, 0, 4, 3), DesktopArea(0, 58, 4, 3)])
-def test_area_outside_the_given_screens_is_refused_before_a_picture_is_taken(area: DesktopArea, shots: Shots) -> None:
+def test_an_area_partly_outside_the_given_screens_is_refused_before_a_picture_is_taken(
+    area: DesktopArea, shots: Shots
+) -> None:
     with open_camera(lambda: DesktopArea(0, 0, 100, 60)) as picture:
         with pytest.raises(DesktopError, match="all of it is on the screen"):
             picture(area)

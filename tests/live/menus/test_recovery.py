@@ -82,7 +82,7 @@ def test_an_unknown_screen_that_closes_by_itself_gets_no_key() -> None:
     assert menus.pressed == []
 
 
-def test_an_unknown_screen_after_a_known_one_starts_over_with_the_debug_key() -> None:
+def test_recovery_starts_over_with_the_debug_key_on_an_unknown_screen_after_a_known_one() -> None:
     class Changing(FakeMenus):
         """Unknown until the debug key was pressed, then the pause menu once, then unknown for good."""
 
@@ -203,7 +203,7 @@ def test_leave_world_refuses_to_leave_a_servers_world() -> None:
     assert menus.pressed == []
 
 
-def test_leave_world_gives_up_on_an_unknown_screen_without_a_key() -> None:
+def test_leave_world_gives_up_on_an_unknown_screen_without_pressing_a_key() -> None:
     menus = FakeMenus("inventory")
     with pytest.raises(LiveError, match="title screen was not reached, the screen is unknown"):
         recovery_in(menus).leave_world()

@@ -156,7 +156,7 @@ def test_a_placing_mishap_leaves_no_block(kind: Kind, most: int) -> None:
 
 
 @pytest.mark.parametrize("kind", KINDS)
-def test_mishaps_of_the_world_do_not_happen_on_the_title_screen(kind: Kind) -> None:
+def test_no_mishap_leads_away_from_the_title_screen(kind: Kind) -> None:
     client = VirtualClient()
     client.game.open("title")
     client.mishaps.plan(kind)
