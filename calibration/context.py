@@ -1,4 +1,4 @@
-"""What all calibration steps share: the context that they work in, how it is opened, and the result that they return.
+"""The context that all calibration steps work in, the function that opens it, and the result that they return.
 
 A step is a function from a context and a profile to a StepResult. It looks at the game and presses keys, and writes no
 file. Its caller writes the profile once every step has succeeded.

@@ -19,7 +19,7 @@ FRONT = 1
 
 
 class Layout(NamedTuple):
-    """What stays the same: what each move adds to an index (actions,), the runs' first index (R,) and step limit (R,).
+    """The constants of a step: what each move adds to an index (actions,), each run's first index and step limit (R,).
 
     ``side`` is how many cells there are in a row, the border included.
     """
@@ -42,7 +42,7 @@ class Episodes(NamedTuple):
 
 
 class Stepped(NamedTuple):
-    """What a step did, (R,) each: the index in front of the agent, whether a block landed there, what has ended."""
+    """A step's outcome, (R,) each: the index in front of the agent, whether a block landed there, what has ended."""
 
     front: Int64s
     lands: Bools

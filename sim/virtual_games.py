@@ -32,7 +32,7 @@ _ORIGIN_X, _ORIGIN_Z = -20, 31
 
 
 class VirtualPlay:
-    """What playing on virtual clients took, for a training's summary."""
+    """Measures the game time of playing on virtual clients, for a training's summary."""
 
     def __init__(self, games: Sequence[LiveGame]) -> None:
         self._games = games

@@ -169,7 +169,7 @@ class BlockQueries:
 
 @dataclass(frozen=True)
 class GroundSurvey:
-    """What is known of the ground before anything is built. None means unknown.
+    """The facts about the ground before anything is built. None means unknown.
 
     ``floor`` is the id of the block seen in front of the player's feet. ``copy_to`` is where the copy will lie.
     """

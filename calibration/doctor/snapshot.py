@@ -29,7 +29,7 @@ READABLE_S = 5.0
 
 @dataclass(frozen=True)
 class ScreenContents:
-    """What a frame shows: the screen; the beginning of the line that the debug screen was recognized by, if it is on.
+    """A frame's contents: the screen; the beginning of the line that the debug screen was recognized by, if it is on.
 
     ``scales`` are those of any text of the game's that was found.
     """

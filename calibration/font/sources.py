@@ -1,4 +1,4 @@
-"""Where a game's font may be: enabled resource packs first, then the launchers' client jars.
+"""Find the files that may hold a game's font: enabled resource packs first, then the launchers' client jars.
 
 The game runs here, or was recorded, perhaps on another computer.
 """

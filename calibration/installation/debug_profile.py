@@ -38,7 +38,7 @@ _VERSION_JSON, _MOST_BYTES = "version.json", 1 << 16
 
 @dataclass(frozen=True)
 class DebugProfile:
-    """What the file says, in the ids and words of the version that it was read for.
+    """The contents of the file, in the ids and words of the version that it was read for.
 
     Args:
         path: the file.
@@ -63,7 +63,7 @@ class DebugProfile:
 
     @property
     def off(self) -> list[str]:
-        """Those of them that are off."""
+        """The ids of the needed entries that are off."""
         on = {_ALWAYS, _shown(self.version)}
         return [each for each in self.needed if self.statuses.get(_NAMESPACE + each) not in on]
 

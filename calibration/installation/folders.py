@@ -1,4 +1,4 @@
-"""Where launchers keep games: the folders that hold an ``options.txt``, and the plain game's client jars.
+"""Find the games that launchers keep: the folders with an ``options.txt``, and the plain game's client jars.
 
 Each launcher's folders are data, relative to the home and the environment of a ``System``, so that any system can be
 examined on any other (FACTS: Launchers' folders).

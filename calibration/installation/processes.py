@@ -1,4 +1,4 @@
-"""Whether a game runs in a folder, by this computer's processes: a second check beside looking for the game's window.
+"""Check by this computer's processes if a game runs in a folder: a second check beside looking for its window.
 
 A launcher starts Java in the game's folder, and may name it on the command line (FACTS: Launchers' folders).
 """

@@ -1,1 +1,1 @@
-"""What a calibration saw, kept beside the profile and made into one page that names nobody."""
+"""Keep what a calibration saw beside the profile, and make it into one page that names nobody."""

@@ -1,4 +1,4 @@
-"""What calibrations leave beside a profile for a report: checks, findings and their pictures.
+"""Checks, findings and pictures that calibrations leave beside a profile for a report.
 
 default.toml
 default-calibration/found.json     the last findings of each step, and the doctor's last table
@@ -57,7 +57,7 @@ class _List(_Table):
 
 @dataclass(frozen=True)
 class StepFindings:
-    """What a step found, as in ``StepResult``, and the day (year-month-day)."""
+    """The findings of a step, as in ``StepResult``, and the day (year-month-day)."""
 
     step: str
     date: str

@@ -48,7 +48,7 @@ JPEG_QUALITY = 88
 
 @dataclass(frozen=True)
 class CalibrationReport:
-    """What a report is made of. ``text`` is the profile's file, comments included; ``version`` this program's."""
+    """The contents of a report. ``text`` is the profile's file, comments included; ``version`` this program's."""
 
     name: str
     profile: Profile

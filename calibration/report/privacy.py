@@ -37,7 +37,7 @@ _END = r"""(?=$|[\\/\s"'`:;,)\]}>])"""
 
 @dataclass(frozen=True)
 class Names:
-    """What identifies a person: the home folder, as the system writes it, and the names of their account."""
+    """The names that identify a person: the home folder, as the system writes it, and the names of their account."""
 
     home: str
     users: tuple[str, ...]

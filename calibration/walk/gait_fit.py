@@ -1,4 +1,4 @@
-"""How a player walks, fitted to holds that were followed on the screen: the push of a tick, and the inertia.
+"""Fit a player's walk to holds that were followed on the screen: the push of a tick, and the inertia.
 
 A hold of so many seconds is felt by a whole number of ticks, that number or one more or less. So each hold is compared
 with the paths of so many ticks (FACTS: Walking) and matched with the nearest one. Push and inertia are those with which

@@ -47,12 +47,12 @@ class HoldTiming:
 
     @property
     def first_seen(self) -> float:
-        """When the first tick's step is seen, the median over all steps."""
+        """The time at which the first tick's step is seen, the median over all steps."""
         return float(np.median([_middle(step) - (step[0] - 1) * TICK_S for step in self.steps]))
 
     @property
     def late_steps(self) -> int:
-        """How many of the steps were seen too far off the others' tick phase."""
+        """The number of steps that were seen too far off the others' tick phase."""
         first = self.first_seen
         return sum(abs(_middle(step) - (step[0] - 1) * TICK_S - first) > LATE_S for step in self.steps)
 

@@ -1,4 +1,4 @@
-"""What is fitted to the holds of a walk's calibration: both gaits and the latencies, and how well all of it fits.
+"""Fit both gaits and the latencies to the holds of a walk's calibration, and measure how well all of it fits.
 
 Where a player moves with every frame, no hold fits a path of whole ticks. What is left is a straight line through how
 far holds of each length led. Playing needs no more: where it recognises no path, it looks until the player stands
@@ -47,7 +47,7 @@ LAGGING = 0.1
 
 @dataclass(frozen=True)
 class WalkModel:
-    """How the player of this game walks, and the evidence for it.
+    """A model of how the player of this game walks, and the evidence for it.
 
     Attributes:
         walking, sneaking: the models of the two gaits.

@@ -38,7 +38,7 @@ class RecordedHold:
 
     @property
     def end(self) -> GroundVector:
-        """Where the walker stands after it."""
+        """The walker's position after the hold."""
         return self.sightings[-1].position if self.sightings else self.begin
 
     @property

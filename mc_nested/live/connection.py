@@ -60,7 +60,7 @@ class GameConnection:
 
     @property
     def screen(self) -> GameScreen:
-        """What reads the window; ProfileError while the game's font is not known."""
+        """The reader of the window; raises ProfileError while the game's font is not known."""
         if self._screen is None:
             raise ProfileError("the game's font is not known yet: run mc-nested calibrate font first")
         return self._screen

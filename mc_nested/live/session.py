@@ -41,7 +41,7 @@ def open_desktops_panic_switch(key: str, stop: Stop) -> AbstractContextManager[N
 
 @dataclass(frozen=True)
 class Opening:
-    """How a game's window is opened, who is told what happens there, and what is recorded of it.
+    """The settings for opening a game's window: its profile, who is told what happens there, and what is recorded.
 
     Args:
         profile: the profile's name or file.

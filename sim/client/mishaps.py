@@ -1,4 +1,4 @@
-"""What goes wrong in a game: each kind by name, planned for a time or drawn at random."""
+"""Mishaps in a game: each kind by name, planned for a time or drawn at random."""
 
 from dataclasses import dataclass
 from typing import Literal, Protocol, get_args

@@ -1,4 +1,4 @@
-"""How a virtual client is set up."""
+"""The settings of a virtual client."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
@@ -18,7 +18,7 @@ Size = tuple[int, int]
 
 @dataclass(frozen=True)
 class ClientSettings:
-    """What a virtual client is like. Two clients of the same settings, used alike, behave the same to the bit.
+    """The settings of a virtual client. Two clients of the same settings, used alike, behave the same to the bit.
 
     ``size`` is in framebuffer pixels, ``scale`` the GUI scale asked for (0 is auto, None that of ``options``).
     ``world`` is the kind of world behind the text, of ``painter.WORLDS``, bright or dark, or ``painter.SEEN``: what

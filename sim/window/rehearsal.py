@@ -27,7 +27,7 @@ from sim.window.window_picture import WindowPicture
 
 
 class MishapWindow:
-    """What a mishap does to a client in a real window: the desktop's part is done to the window itself."""
+    """A client in a real window, as mishaps find it: the desktop's part is done to the window itself."""
 
     def __init__(self, window: GlfwWindow, client: VirtualClient) -> None:
         self._window, self._client = window, client

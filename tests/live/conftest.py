@@ -1,4 +1,4 @@
-"""What the tests of the real devices share: an X server of their own."""
+"""Fixtures that the tests of the real devices share: an X server of their own."""
 
 import os
 from collections.abc import Iterator

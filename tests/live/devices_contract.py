@@ -1,4 +1,4 @@
-"""What every game's devices do, asked in the same words of the virtual client and of a real window.
+"""The contract of every game's devices, asked in the same words of the virtual client and of a real window.
 
 As a program it asks the real window of this display, and prints the answers: devices_contract.py TRUTH_FILE.
 """

@@ -4,7 +4,7 @@ from mc_nested.live.journal import Fact, NoteKind
 
 
 class Notes:
-    """What a journal was told, in order."""
+    """A journal that keeps its notes, in order."""
 
     def __init__(self) -> None:
         self.taken: list[tuple[NoteKind, dict[str, Fact]]] = []

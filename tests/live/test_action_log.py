@@ -1,4 +1,4 @@
-"""What playing took, as plain numbers.
+"""The action log's counts and percentiles, and the limit on failed episodes.
 
 Failed episodes: counted, accepted up to a limit, but never after a person stopped the game.
 """
@@ -9,7 +9,7 @@ from mc_nested.errors import NotConfirmedError, StoppedError
 from mc_nested.live.action_log import MOST_IN_A_ROW, PROGRESS, ActionLog, Effort, FailureBudget, percentile
 
 
-def test_percentiles_are_values_that_shares_lie_below() -> None:
+def test_percentiles_are_interpolated_and_none_without_values() -> None:
     assert percentile([float(value) for value in range(101)], 50) == 50.0
     assert percentile([float(value) for value in range(101)], 95) == 95.0
     assert percentile([0.25], 95) == 0.25
@@ -17,7 +17,7 @@ def test_percentiles_are_values_that_shares_lie_below() -> None:
     assert percentile([], 50) is None
 
 
-def test_the_summary_counts_what_the_body_did() -> None:
+def test_the_summary_has_the_bodys_counts_and_the_actions_times() -> None:
     log = ActionLog(Effort(moves=4, corrections=1, clicks=2, second_clicks=1), [0.3, 0.3, 0.5], failed_actions=1)
     assert log.summary() == {
         "actions": 3,
@@ -35,7 +35,7 @@ def test_the_summary_counts_what_the_body_did() -> None:
 ERROR = NotConfirmedError("the agent looks away")
 
 
-def test_failed_episodes_are_counted_with_what_the_last_errors_said() -> None:
+def test_failed_episodes_are_counted_and_the_last_three_messages_kept() -> None:
     failure_budget = FailureBudget()
     for steps in range(4):
         failure_budget.record_failure(NotConfirmedError(f"problem {steps}"), steps)
@@ -56,12 +56,12 @@ def test_failures_with_progress_between_them_do_not_end_the_training() -> None:
         failure_budget.record_failure(ERROR, episode * PROGRESS)
 
 
-def test_a_person_who_stops_the_game_ends_the_training_at_once() -> None:
+def test_a_stopped_game_ends_the_training_at_the_first_failure() -> None:
     with pytest.raises(StoppedError):
         FailureBudget().record_failure(StoppedError("the panic key was pressed"), 0)
 
 
-def test_progress_is_counted_from_the_last_failure_and_starts_the_row_at_one() -> None:
+def test_progress_since_the_last_failure_restarts_the_count_of_failures_at_one() -> None:
     failure_budget = FailureBudget()
     steps = 0
     for _ in range(MOST_IN_A_ROW):

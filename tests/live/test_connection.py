@@ -31,7 +31,7 @@ def connection_without_font(game: FakeGame) -> GameConnection:
 
 
 @pytest.mark.parametrize("error", [None, RuntimeError("it broke"), KeyboardInterrupt()])
-def test_every_key_is_up_whichever_way_it_is_left(error: BaseException | None) -> None:
+def test_every_key_is_up_however_the_connection_is_left(error: BaseException | None) -> None:
     game = FakeGame(Profile())
     caught: BaseException | None = None
     try:
@@ -53,12 +53,12 @@ def test_entering_gives_the_connection_itself() -> None:
         assert entered is connection
 
 
-def test_without_a_font_there_is_no_screen_and_the_error_says_what_makes_one() -> None:
+def test_a_connection_without_a_font_has_no_screen_and_says_how_to_get_one() -> None:
     with pytest.raises(ProfileError, match="run mc-nested calibrate font first"):
         _ = connection_without_font(FakeGame(Profile())).screen
 
 
-def test_a_profile_without_a_font_makes_no_connection_that_reads() -> None:
+def test_connecting_with_a_profile_without_a_font_is_refused() -> None:
     game = FakeGame(Profile())
     with pytest.raises(ProfileError, match=r"screen\.font is missing"):
         connect(Profile(), devices_of(game))
@@ -66,7 +66,7 @@ def test_a_profile_without_a_font_makes_no_connection_that_reads() -> None:
         connection_without_font(game).for_profile(Profile())
 
 
-def test_a_font_that_can_not_be_read_makes_no_connection(tmp_path: Path) -> None:
+def test_connecting_with_an_unreadable_font_is_refused(tmp_path: Path) -> None:
     profile = Profile(screen=ScreenTable(font=str(tmp_path / "none.png")))
     with pytest.raises(FontError):
         connect(profile, devices_of(FakeGame(Profile())))
@@ -94,7 +94,7 @@ def test_the_controller_has_the_profiles_times(font: ScreenTable) -> None:
 
 
 @pytest.mark.parametrize("is_server_allowed", [True, False])
-def test_another_screen_or_profile_keeps_the_devices_the_controller_and_what_is_allowed(
+def test_a_connection_keeps_its_devices_and_controller_under_another_screen_or_profile(
     font: ScreenTable, is_server_allowed: bool
 ) -> None:
     game = FakeGame(Profile())
@@ -114,14 +114,14 @@ def titled(title: str, *, is_server_allowed: bool) -> GameConnection:
     return GameConnection(devices, InputController(devices, InputTable()), is_server_allowed=is_server_allowed)
 
 
-def test_a_game_that_others_may_share_is_refused_unless_it_is_allowed() -> None:
+def test_a_shared_game_is_refused_unless_servers_are_allowed() -> None:
     with pytest.raises(DesktopError, match=r"Multiplayer \(LAN\)', so others may be playing there"):
         titled(SERVER, is_server_allowed=False).check_single_player()
     titled(SERVER, is_server_allowed=True).check_single_player()
     titled("Minecraft 1.20.1 - Singleplayer", is_server_allowed=False).check_single_player()
 
 
-def test_a_connection_made_from_a_profile_is_for_a_single_player_unless_said_otherwise(font: ScreenTable) -> None:
+def test_connect_allows_no_server_by_default(font: ScreenTable) -> None:
     devices = connection_of(FakeMenus(window_title=SERVER)).devices
     profile = Profile(screen=font)
     with pytest.raises(DesktopError, match="--server-allowed"):

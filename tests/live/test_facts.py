@@ -8,7 +8,7 @@ FOLDERS = ("mc_nested", "sim", "calibration", "tests")
 SOURCE = re.compile(r"[(]FACTS: ([^;)\n]+)")
 
 
-def test_every_source_in_the_code_is_a_section_of_the_facts() -> None:
+def test_every_section_of_facts_that_the_code_cites_exists() -> None:
     sections = set(re.findall(r"^## (.+)$", (ROOT / "mc_nested/live/FACTS.md").read_text("utf-8"), re.MULTILINE))
     files = [path for folder in FOLDERS for path in (ROOT / folder).rglob("*.py")]
     named = {name for path in files for name in SOURCE.findall(path.read_text("utf-8"))}

@@ -8,7 +8,7 @@ from tests.live.notes import Notes
 from tests.sim.client.playing import arena_of, connection_to
 
 
-def test_an_action_is_noted_from_its_beginning_to_what_was_seen() -> None:
+def test_the_journal_notes_an_action_from_its_beginning_to_its_outcome() -> None:
     client = VirtualClient(seed=3)
     scenario, notes = load_scenario("line"), Notes()
     connection = connection_to(client)

@@ -70,7 +70,7 @@ def test_a_reset_clears_the_arena_and_puts_the_agent_on_the_start(version: str) 
 
 
 @pytest.mark.parametrize("material", [0, 1])
-def test_the_line_is_built_walking_backward(material: int) -> None:
+def test_walking_backward_builds_the_line(material: int) -> None:
     world = _world("west")
     with _play(world) as game:
         game.reset(material)
@@ -82,7 +82,7 @@ def test_the_line_is_built_walking_backward(material: int) -> None:
 
 
 @given(facings, st.lists(actions, max_size=14))
-def test_every_outcome_is_the_rules_outcome_and_the_worlds(facing: Facing, chosen: list[Action]) -> None:
+def test_every_outcome_agrees_with_the_rules_and_with_the_world(facing: Facing, chosen: list[Action]) -> None:
     world = _world(facing)
     arena = world.profile.marked_arena()
     game = _play(world)
@@ -102,7 +102,7 @@ def test_every_outcome_is_the_rules_outcome_and_the_worlds(facing: Facing, chose
 
 
 @given(st.lists(actions, max_size=4), st.floats(0.0, 12.0), st.integers(-1, 250), st.integers(0, 3))
-def test_whatever_happens_no_key_stays_down_or_goes_to_another_window(
+def test_no_key_stays_down_or_goes_to_another_window_whatever_happens(
     chosen: list[Action], front_s: float, fail_after: int, refused: int
 ) -> None:
     world = _world()
@@ -117,7 +117,7 @@ def test_whatever_happens_no_key_stays_down_or_goes_to_another_window(
 
 
 @pytest.mark.parametrize("facing", ["north", "south", "west", "east"])
-def test_the_contract_of_every_game_holds_in_a_live_one(facing: Facing) -> None:
+def test_a_live_game_keeps_the_game_contract(facing: Facing) -> None:
     world = _world(facing)
     check_game(_play(world), LINE, [*BUMPS, *build(LINE)])
     assert world.down == set()
@@ -129,7 +129,7 @@ def _kinds(world: FakeGame) -> dict[Cell, str]:
     return {cell: world.blocks[arena.block_of(cell)] for cell in cells if arena.block_of(cell) in world.blocks}
 
 
-def test_the_flag_is_built_of_the_material_that_each_part_is_worth_most_in() -> None:
+def test_each_part_of_the_flag_is_built_of_its_most_valuable_material() -> None:
     world = _world()
     check_materials(_play(world, FLAG), FLAG, build_with_materials(FLAG), lambda: _kinds(world))
     halves = [{_kinds(world)[cell] for cell in part.cells} for part in FLAG.parts]
@@ -137,7 +137,7 @@ def test_the_flag_is_built_of_the_material_that_each_part_is_worth_most_in() -> 
     assert world.down == set()
 
 
-def test_a_hotbar_key_is_pressed_where_another_material_is_taken_and_nowhere_else() -> None:
+def test_a_hotbar_key_is_pressed_only_when_the_material_changes() -> None:
     world = _world()
     game = _play(world, FLAG)
     game.reset(STONE)
@@ -149,7 +149,7 @@ def test_a_hotbar_key_is_pressed_where_another_material_is_taken_and_nowhere_els
     assert taken == [[], ["1"], [], [], ["2"]]
 
 
-def test_a_block_of_another_material_than_was_taken_is_noticed_and_the_game_wants_a_reset() -> None:
+def test_a_block_of_the_wrong_material_is_an_error_and_requires_a_reset() -> None:
     world = _world()
     game = _play(world, FLAG)
     game.reset(STONE)
@@ -163,7 +163,7 @@ def test_a_block_of_another_material_than_was_taken_is_noticed_and_the_game_want
     assert _kinds(world) == {(7, 14): "oak_planks"}
 
 
-def test_after_an_error_the_game_wants_a_reset() -> None:
+def test_a_game_must_be_reset_after_an_error() -> None:
     world = _world()
     game = _play(world)
     with pytest.raises(LiveError, match="must be reset first"):
@@ -187,7 +187,7 @@ def test_a_reset_forgets_the_blocks_of_the_episode_before() -> None:
         assert game.act(Action.BD).placed == (7, 13)
 
 
-def test_a_release_that_fails_once_is_repeated_before_the_error_is_raised() -> None:
+def test_a_failed_release_is_repeated_before_its_error_is_raised() -> None:
     world = _world()
     # Calls: a command is a tap, its letters and a tap; then come the slot's tap, and the move's press and release.
     calls = sum(4 + len(command) for command in _commands(world)) + 2 + 1
@@ -199,14 +199,14 @@ def test_a_release_that_fails_once_is_repeated_before_the_error_is_raised() -> N
     assert world.down == set()
 
 
-def test_a_teleport_that_the_game_refuses_is_not_a_reset() -> None:
+def test_a_reset_fails_if_the_game_refuses_the_teleport() -> None:
     world = _world()
     world.refuse_commands = "/tp"
     with pytest.raises(NotConfirmedError, match=r"teleport to cell .* was not seen"):
         _play(world).reset(STONE)
 
 
-def test_nothing_is_typed_where_the_chat_does_not_open() -> None:
+def test_a_reset_types_nothing_if_the_chat_does_not_open() -> None:
     world = _world()
     world.profile = world.profile.model_copy(update={"keys": world.profile.keys.model_copy(update={"chat": "y"})})
     game = LiveGame(
@@ -219,7 +219,7 @@ def test_nothing_is_typed_where_the_chat_does_not_open() -> None:
     assert world.leaked == ""
 
 
-def test_a_reset_faces_the_nearest_of_the_leftmost_blocks_and_sees_it_go() -> None:
+def test_a_reset_faces_the_nearest_of_the_leftmost_blocks_and_sees_it_removed() -> None:
     world = _world("south")
     arena = world.profile.marked_arena()
     game = _play(world)
@@ -235,7 +235,7 @@ def test_a_reset_faces_the_nearest_of_the_leftmost_blocks_and_sees_it_go() -> No
     assert world.built == set()
 
 
-def test_without_a_placed_block_a_reset_only_clears_and_teleports() -> None:
+def test_a_reset_without_placed_blocks_sends_only_the_reset_commands() -> None:
     world = _world()
     game = _play(world)
     game.reset(STONE)
@@ -279,7 +279,7 @@ def test_a_reset_that_fails_for_good_leaves_the_last_frames_and_names_them(tmp_p
     assert len(list(tmp_path.glob("*.png"))) == 3
 
 
-def test_a_person_who_stops_the_game_ends_a_reset_at_once() -> None:
+def test_a_stopped_game_ends_a_reset_at_once() -> None:
     world = _world()
     game = _play(world)
     game.connection.controller.stop("the panic key was pressed")
@@ -289,7 +289,7 @@ def test_a_person_who_stops_the_game_ends_a_reset_at_once() -> None:
     assert world.presses == []
 
 
-def test_a_game_that_others_may_share_is_not_reset() -> None:
+def test_a_game_shared_with_others_is_not_reset() -> None:
     class SharedDisplay(FakeDisplay):
         """The fake game's window in a world that others may join."""
 
@@ -304,7 +304,7 @@ def test_a_game_that_others_may_share_is_not_reset() -> None:
     assert world.presses == []
 
 
-def test_a_clearing_that_the_game_refuses_is_seen_by_the_block_that_stays() -> None:
+def test_a_reset_fails_if_a_block_stays_because_the_game_refused_to_clear() -> None:
     world = _world()
     game = _play(world)
     game.reset(STONE)
@@ -314,7 +314,7 @@ def test_a_clearing_that_the_game_refuses_is_seen_by_the_block_that_stays() -> N
         game.reset(STONE)
 
 
-def test_a_block_that_somebody_else_put_before_the_agent_is_noticed() -> None:
+def test_a_foreign_block_in_front_of_the_agent_is_an_error() -> None:
     world = _world()
     game = _play(world)
     game.reset(STONE)
@@ -323,7 +323,7 @@ def test_a_block_that_somebody_else_put_before_the_agent_is_noticed() -> None:
         [game.act(action) for action in (Action.B, Action.L)]
 
 
-def test_an_agent_that_was_carried_off_is_noticed_even_by_an_action_that_presses_nothing() -> None:
+def test_an_action_that_presses_nothing_notices_that_the_agent_was_moved() -> None:
     world = _world()
     game = _play(world)
     game.reset(STONE)
@@ -333,7 +333,7 @@ def test_an_agent_that_was_carried_off_is_noticed_even_by_an_action_that_presses
         game.act(Action.F)
 
 
-def test_behind_another_window_nothing_is_pressed() -> None:
+def test_a_reset_presses_nothing_while_another_window_is_in_front() -> None:
     world = _world()
     world.front_until = 0.0
     with pytest.raises(NotInFrontError):
@@ -341,7 +341,7 @@ def test_behind_another_window_nothing_is_pressed() -> None:
     assert world.presses == []
 
 
-def test_nothing_is_typed_where_no_debug_screen_is_to_be_seen() -> None:
+def test_a_reset_types_no_command_without_a_readable_debug_screen() -> None:
     world = _world()
     world.unreadable = True
     with pytest.raises(LiveError, match="the world was not reached"):
@@ -355,7 +355,7 @@ def test_more_materials_than_the_hotbar_has_slots_are_refused() -> None:
         _play(_world(), many)
 
 
-def test_as_many_materials_as_the_hotbar_has_slots_are_fine() -> None:
+def test_nine_materials_fill_the_hotbar_and_the_last_can_be_taken() -> None:
     world = _world()
     nine = dataclasses.replace(LINE, materials=tuple(Material(f"m{index}", 0.0, "stone") for index in range(9)))
     _play(world, nine).reset(8)
@@ -377,7 +377,7 @@ def test_a_scenario_larger_than_the_profiles_arena_is_refused_with_the_step_to_r
     assert world.presses == []
 
 
-def test_the_step_to_repeat_names_the_profile_and_types_no_commands_where_it_has_none() -> None:
+def test_the_step_to_repeat_names_the_profile_and_only_marks_in_a_world_without_cheats() -> None:
     world = WorldTable(name="mine", folder="~/saves/mine", template="~/saves/template")
     profile = Profile(arena=Arena.around((0, 64, 0), "south", size=16), world=world)
     check_fits(_large(16), profile, "mine")
@@ -387,7 +387,7 @@ def test_the_step_to_repeat_names_the_profile_and_types_no_commands_where_it_has
 
 
 @given(facings, st.lists(actions, max_size=14))
-def test_in_a_larger_arena_a_scenario_ends_where_its_own_edge_is(facing: Facing, chosen: list[Action]) -> None:
+def test_a_scenario_keeps_its_own_edge_in_a_larger_arena(facing: Facing, chosen: list[Action]) -> None:
     world = FakeGame(Profile(arena=Arena.around((-20, 64, 31), facing, size=18)))
     game, near_edge = _play(world), (Action.R,) * 7
     cell, placed = game.reset(STONE), set[Cell]()

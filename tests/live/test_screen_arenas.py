@@ -50,7 +50,7 @@ def test_a_reset_shows_its_one_picture_four_times(arenas: ScreenArenas) -> None:
     assert pictures[0, 0].std() > 3, "something is seen"
 
 
-def test_a_step_adds_its_picture_behind_the_last_three(arenas: ScreenArenas) -> None:
+def test_a_step_appends_its_picture_to_the_last_three(arenas: ScreenArenas) -> None:
     before, _ = arenas.reset()
     after, rewards, terminated, _, info = arenas.step(np.array([FD, F]))
     assert np.array_equal(after[:, :-1], before[:, 1:])
@@ -62,14 +62,14 @@ def test_a_step_adds_its_picture_behind_the_last_three(arenas: ScreenArenas) -> 
     assert np.abs(after[0, -1].astype(int) - after[1, -1]).max() > 20
 
 
-def test_what_was_returned_never_changes_afterwards(arenas: ScreenArenas) -> None:
+def test_returned_observations_never_change_afterwards(arenas: ScreenArenas) -> None:
     first, _ = arenas.reset()
     kept = first.copy()
     arenas.step(np.array([F, F]))
     assert np.array_equal(first, kept)
 
 
-def test_no_action_takes_no_picture_and_an_ended_arena_waits_for_its_reset(arenas: ScreenArenas) -> None:
+def test_arenas_that_have_ended_or_get_no_action_keep_their_pictures(arenas: ScreenArenas) -> None:
     arenas.reset()
     walked, *_ = arenas.step(np.array([F, NO_ACTION]))
     for _ in range(4):
@@ -111,7 +111,7 @@ def test_a_simulated_game_has_no_window() -> None:
     assert str(caught.value) == NEEDS_A_WINDOW
 
 
-def test_without_the_debug_screen_the_scale_isnt_known() -> None:
+def test_a_reset_without_known_scales_asks_for_f3() -> None:
     with open_virtual_games([SMALL]) as games:
         arenas = ScreenArenas(ArenaVectorEnv([ArenaEnv(games[0], SMALL)]))
         arenas.reset()
@@ -161,7 +161,7 @@ def hidden(size: tuple[int, int], scale: int) -> np.ndarray:
 
 @pytest.mark.parametrize("version", ["1.12.2", "1.14.4", "1.18.2", "1.20.1", "26.1", "26.4"])
 @pytest.mark.parametrize("scale", [1, 2])
-def test_the_world_comes_out_as_if_nothing_lay_over_it(version: str, scale: int) -> None:
+def test_the_greys_show_the_world_as_if_nothing_lay_over_it(version: str, scale: int) -> None:
     client = client_looking(scale=scale, version=version)
     found = world_greys(client.display.grab(), client.scales).astype(int)
     elsewhere = ~hidden(client.display.size(), scale)
@@ -171,7 +171,7 @@ def test_the_world_comes_out_as_if_nothing_lay_over_it(version: str, scale: int)
 
 
 @given(st.floats(40, 85), st.floats(-180, 180))
-def test_the_world_comes_out_the_same_wherever_the_agent_looks(pitch: float, yaw: float) -> None:
+def test_the_greys_show_the_bare_world_whichever_way_the_agent_looks(pitch: float, yaw: float) -> None:
     client = client_looking(pitch, yaw)
     away = np.abs(world_greys(client.display.grab(), Scales(1, 1)).astype(int) - plainly(bare(client)))
     # The sky is as bright as letters are, so a horizon at a text's edge may cost a dot.
@@ -186,7 +186,7 @@ def test_a_picture_is_84_rows_of_84_greys_whatever_the_windows_size() -> None:
         assert set(np.unique(greys)) <= {0, 77}
 
 
-def test_chat_hotbar_and_crosshair_make_no_difference() -> None:
+def test_the_greys_do_not_depend_on_the_chat_or_the_hotbars_contents() -> None:
     client = client_looking()
     before = world_greys(client.display.grab(), Scales(1, 1))
     client.realm.player.hotbar[5:] = [Stack("sand", 64)] * 4
@@ -198,7 +198,7 @@ def test_chat_hotbar_and_crosshair_make_no_difference() -> None:
     assert np.abs(world_greys(with_chat, Scales(1, 1)).astype(int) - before).max() <= NEAR
 
 
-def test_the_text_of_another_place_makes_no_difference() -> None:
+def test_the_greys_do_not_depend_on_the_debug_screens_text() -> None:
     pictures = []
     for x in (0.5, 12345.5):
         client = VirtualClient(world=SEEN, pitch=65.0, scale=1, feet=(x, 64.0, 0.5))
@@ -207,7 +207,7 @@ def test_the_text_of_another_place_makes_no_difference() -> None:
     assert np.abs(pictures[0] - pictures[1]).max() <= NEAR
 
 
-def test_where_the_chat_may_be_it_is_black() -> None:
+def test_the_chats_and_hotbars_regions_are_black_in_the_greys() -> None:
     greys = world_greys(np.full((480, 854, 3), 200, np.uint8), Scales(1, 1))
     # From 138 to 38 GUI pixels over the lower edge, 332 wide: rows 60 to 77 of 84, columns 0 to 32.
     assert not greys[61:76, :32].any()

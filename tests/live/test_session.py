@@ -33,7 +33,7 @@ CALIBRATED = CalibratedTable(date="2026-11-21", version="1.20.1", window=(854, 4
         (ClientSettings(scale=1), "this is 1: set Video Settings"),
     ],
 )
-def test_a_game_that_does_not_fit_is_not_opened_and_nothing_is_pressed(
+def test_a_game_that_does_not_fit_its_profile_is_refused_and_no_key_is_pressed(
     settings: ClientSettings, complaint: str, tmp_path: Path
 ) -> None:
     client = VirtualClient(settings)
@@ -49,7 +49,7 @@ def test_a_game_that_does_not_fit_is_not_opened_and_nothing_is_pressed(
     assert not client.built
 
 
-def test_a_version_later_than_all_known_ones_is_played_with_one_line_about_it(tmp_path: Path) -> None:
+def test_opening_a_version_later_than_all_known_ones_says_so(tmp_path: Path) -> None:
     profile, said = saved(Profile(screen=font_in(tmp_path), arena=ARENA), tmp_path), list[str]()
     client = VirtualClient(ClientSettings(version="27.1"))
     opened = open_live_game(LINE, opening_on(client, profile, said.append))
@@ -59,7 +59,7 @@ def test_a_version_later_than_all_known_ones_is_played_with_one_line_about_it(tm
 
 
 @pytest.mark.parametrize("version", ["1.21.9", "26.4"])
-def test_a_hotbar_that_can_not_be_seen_is_refused_soon_and_nothing_is_pressed(
+def test_a_game_with_an_unrecognised_hotbar_is_refused_within_5_seconds(
     version: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     # As a resource pack may draw it.
@@ -75,7 +75,7 @@ def test_a_hotbar_that_can_not_be_seen_is_refused_soon_and_nothing_is_pressed(
     assert (client.game.screen, client.window.down, client.window.strays) == ("world", set(), [])
 
 
-def test_a_debug_screen_that_names_no_block_is_refused_and_nothing_is_pressed(
+def test_a_game_whose_debug_screen_names_no_block_is_refused_and_no_key_is_pressed(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     client = VirtualClient(version="26.3", debug_entries=GAME_DEFAULT)
@@ -85,7 +85,7 @@ def test_a_debug_screen_that_names_no_block_is_refused_and_nothing_is_pressed(
         pass
 
 
-def test_a_game_menu_that_hides_the_hotbar_is_not_refused_but_left_by_the_first_reset(tmp_path: Path) -> None:
+def test_a_game_behind_its_pause_menu_is_opened_and_the_first_reset_leaves_the_menu(tmp_path: Path) -> None:
     client = VirtualClient(version="26.4")
     client.game.open("pause")
     with open_live_game(LINE, opening_on(client, profile_in(tmp_path))) as (game, _):
@@ -93,7 +93,7 @@ def test_a_game_menu_that_hides_the_hotbar_is_not_refused_but_left_by_the_first_
     assert client.game.screen == "world"
 
 
-def test_a_profile_that_can_not_be_played_with_opens_no_window(tmp_path: Path) -> None:
+def test_an_unusable_profile_is_refused_before_a_window_is_opened(tmp_path: Path) -> None:
     titles: list[str] = []
     screen = font_in(tmp_path)
     unusable: list[tuple[Profile, type[Exception]]] = [
@@ -109,7 +109,7 @@ def test_a_profile_that_can_not_be_played_with_opens_no_window(tmp_path: Path) -
     assert titles == []
 
 
-def test_a_scenario_larger_than_the_calibrated_arena_opens_no_window_and_names_the_step_to_repeat(
+def test_a_scenario_larger_than_the_arena_is_refused_before_a_window_is_opened(
     tmp_path: Path,
 ) -> None:
     titles: list[str] = []
@@ -122,7 +122,7 @@ def test_a_scenario_larger_than_the_calibrated_arena_opens_no_window_and_names_t
 
 
 @pytest.mark.parametrize("is_in_front", [True, False])
-def test_the_player_is_asked_to_switch_only_where_another_window_is_in_front(is_in_front: bool, tmp_path: Path) -> None:
+def test_the_player_is_asked_to_switch_only_if_another_window_is_in_front(is_in_front: bool, tmp_path: Path) -> None:
     client = VirtualClient(ClientSettings(scale=1))
     client.set_front(is_in_front=is_in_front)
     calibrated = CALIBRATED.model_copy(update={"version": None})
@@ -142,14 +142,14 @@ def test_the_player_is_asked_to_switch_only_where_another_window_is_in_front(is_
     assert titles == ["Mine"]
 
 
-def test_a_fingerprint_is_the_window_as_it_is_now() -> None:
+def test_a_fingerprint_has_the_windows_present_title_size_and_scales() -> None:
     client = VirtualClient()
     known = Fingerprint("Minecraft 1.20.1 - Singleplayer", (854, 480), Scales(2, 2))
     assert fingerprint_of(client.display, Scales(2, 2)) == known
     assert fingerprint_of(client.display).scales is None
 
 
-def test_a_game_that_fits_is_opened_and_no_key_is_down_once_it_is_left(tmp_path: Path) -> None:
+def test_a_fitting_game_is_opened_and_no_key_is_down_after_it_is_left(tmp_path: Path) -> None:
     client = VirtualClient()
     with open_live_game(LINE, opening_on(client, profile_in(tmp_path))) as (game, display):
         assert display is client.display
@@ -159,7 +159,7 @@ def test_a_game_that_fits_is_opened_and_no_key_is_down_once_it_is_left(tmp_path:
     assert client.window.down == set()
 
 
-def test_the_panic_switch_stops_the_game_by_the_profiles_key(tmp_path: Path) -> None:
+def test_the_panic_switch_listens_to_the_profiles_key_and_stops_the_game(tmp_path: Path) -> None:
     client = VirtualClient()
     switches: list[tuple[str, Stop]] = []
 

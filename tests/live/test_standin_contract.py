@@ -28,7 +28,7 @@ TRIES = 3
 
 
 @pytest.mark.standin
-def test_the_contract_of_every_game_holds_in_a_real_window(standin: Standin) -> None:
+def test_a_live_game_in_the_stand_ins_window_keeps_the_game_contract(standin: Standin) -> None:
     command = [sys.executable, "-m", "tests.live.test_standin_contract", str(standin.profile), standin.oracle]
     done = subprocess.run(command, cwd=ROOT, env=standin.env, capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stderr

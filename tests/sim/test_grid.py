@@ -96,13 +96,13 @@ def test_arenas_of_different_sizes_each_have_their_own_edge(sizes: list[int], se
             np.testing.assert_array_equal(arrays.reset(options=options)[0], singles.reset(options=options)[0])
 
 
-def test_the_arrays_of_arenas_of_15_cells_keep_the_shape_that_checkpoints_have() -> None:
+def test_snapshots_of_15_cell_arenas_keep_the_shape_of_existing_checkpoints() -> None:
     kept = GridVectorEnv([LINE, DIAMOND]).snapshot()
     assert kept["_solid"].shape == (2 * 17 * 17,)
     assert arena_env(LINE).snapshot()["env_placed"].shape == (15, 15)
 
 
-def test_every_run_can_have_a_scenario_of_its_own() -> None:
+def test_each_run_can_have_its_own_scenario() -> None:
     scenarios = [LINE, ZIGZAG, DIAMOND]
     envs = GridVectorEnv(scenarios)
     observations, _ = envs.reset()
@@ -127,7 +127,7 @@ def test_a_masked_reset_leaves_the_other_arenas_alone() -> None:
     assert envs.placed(1) == {(7, 14)}
 
 
-def test_without_a_material_the_best_one_is_taken() -> None:
+def test_a_reset_without_a_material_takes_the_best_one() -> None:
     envs = GridVectorEnv([LINE] * 2)
     envs.reset(options={"material": np.array([0, 1])})
     for action in build(LINE):
@@ -158,7 +158,7 @@ def test_an_arena_without_an_action_stands_still(form: type[GridVectorEnv]) -> N
     assert rewards.tolist() == [0.0, 0.0]
 
 
-def test_a_snapshot_brings_every_arena_back() -> None:
+def test_restoring_a_snapshot_repeats_every_arenas_course() -> None:
     envs = GridVectorEnv([LINE, corners(20), DIAMOND])
     envs.reset()
     random = np.random.default_rng(1)
@@ -191,7 +191,7 @@ def refused(envs: GridVectorEnv, actions: Any) -> str:
 
 
 @pytest.mark.parametrize("action", [-2, len(Action)])
-def test_a_number_that_is_no_action_changes_nothing(action: int) -> None:
+def test_a_number_that_is_not_an_action_is_refused_and_changes_nothing(action: int) -> None:
     line, flag = GridVectorEnv([LINE] * 2), GridVectorEnv([load_scenario("flag")] * 2)
     line.reset()
     flag.reset(options={"material": np.array([0, 0])})

@@ -23,7 +23,7 @@ LINE = load_scenario("line")
 SMALL = Scenario("small", frozenset({(2, 2)}), (2, 0), 5, (Material("stone", 1.0, "stone"),), 5)
 
 
-def test_a_scenario_is_built_on_it_from_what_the_window_shows() -> None:
+def test_a_scenario_is_built_on_the_virtual_backend_by_reading_its_window() -> None:
     with open_game(Backend.VIRTUAL, LINE, Opening("none", print)) as (game, display):
         assert display is not None
         assert display.size() == (854, 480)
@@ -34,7 +34,7 @@ def test_a_scenario_is_built_on_it_from_what_the_window_shows() -> None:
     assert info["score"] == LINE.optimum
 
 
-def test_arenas_are_games_of_their_own_whose_log_says_the_game_time() -> None:
+def test_each_virtual_arena_is_a_separate_game_and_the_log_has_its_game_time() -> None:
     with open_arenas(Backend.VIRTUAL, [SMALL, SMALL], Opening("none", print), seed=1) as (env, log):
         assert env.num_envs == 2
         assert isinstance(log, VirtualPlay)
@@ -47,7 +47,7 @@ def test_arenas_are_games_of_their_own_whose_log_says_the_game_time() -> None:
     assert [each["actions"] for each in summary["games"]] == [0, 0]
 
 
-def test_the_arena_has_a_floor_under_its_cells_and_another_around_them() -> None:
+def test_the_arenas_cells_and_its_surroundings_have_floors_of_different_blocks() -> None:
     world = VirtualClient().realm.world
     arena = built_arena(world, SMALL)
     below = arena.origin[1] - 1
@@ -62,7 +62,7 @@ def test_the_arena_has_a_floor_under_its_cells_and_another_around_them() -> None
     assert world.block_at(arena.block_of((-1, 7))) == "lapis_block"
 
 
-def test_trials_and_seeds_draw_latencies_of_their_own() -> None:
+def test_trials_and_seeds_have_different_latencies() -> None:
     with open_virtual_games([SMALL, SMALL], seed=0) as games, open_virtual_games([SMALL], seed=1) as others:
         times = []
         for game in (*games, *others):
@@ -76,7 +76,7 @@ def test_the_virtual_backend_is_named_in_words() -> None:
 
 
 @pytest.mark.slow
-def test_a_training_on_it_is_recorded_says_its_game_time_and_can_be_resumed(
+def test_a_training_on_the_virtual_backend_can_be_resumed_and_reports_game_time(
     tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     folder = tmp_path / "run"

@@ -42,12 +42,12 @@ def test_the_simulator_has_no_window_and_no_log() -> None:
         assert (env.num_envs, log) == (2, None)
 
 
-def test_a_live_game_is_one_arena() -> None:
+def test_the_live_backend_refuses_two_arenas() -> None:
     with pytest.raises(RunError, match="one arena, not 2"), open_arenas(Backend.LIVE, [DOT, BAR], NOBODY):
         pass
 
 
-def test_a_training_sees_the_window_and_is_played_there(
+def test_an_agent_trained_on_the_windows_pictures_plays_as_well_in_its_window(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.chdir(tmp_path)
@@ -71,7 +71,7 @@ def test_a_training_sees_the_window_and_is_played_there(
     ],
     ids=" ".join,
 )
-def test_the_simulator_has_no_window_to_see(
+def test_screen_states_are_refused_in_the_simulator(
     words: list[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.chdir(tmp_path)
@@ -84,7 +84,7 @@ def test_the_simulator_has_no_window_to_see(
     assert said.count("\n") == 1
 
 
-def test_the_single_agent_chooses_where_no_window_shows_it(
+def test_screen_states_are_refused_for_the_single_agent(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.chdir(tmp_path)

@@ -1,4 +1,4 @@
-"""What happens when the desktop itself disappears under a running game, as an X server that ends does."""
+"""Raise one error when the desktop itself disappears under a running game, as an X server that ends does."""
 
 import sys
 from collections.abc import Iterator

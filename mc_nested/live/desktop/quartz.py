@@ -82,7 +82,7 @@ class QuartzWindow:
 
 
 class QuartzClipboard:
-    """What Cmd+V would paste."""
+    """The general pasteboard, which Cmd+V pastes from."""
 
     def read(self) -> str:
         board = AppKit.NSPasteboard.generalPasteboard()

@@ -11,7 +11,7 @@ from mc_nested.live.devices import Clipboard, DesktopArea, Frame
 
 
 class DesktopSystem(Protocol):
-    """What win32.py, quartz.py and x11.py each offer."""
+    """The functions that win32.py, quartz.py and x11.py each offer."""
 
     def open_window(self, title: str) -> AbstractContextManager[GameWindow]:
         """Return the one window whose title matches the regular expression ``title``, while the context lasts.

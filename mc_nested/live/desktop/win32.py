@@ -113,7 +113,7 @@ class Win32Window:
 
 
 class Win32Clipboard:
-    """What Ctrl+V would paste, through pyperclip, which waits while another program has the clipboard open."""
+    """The text that Ctrl+V pastes, through pyperclip, which waits while another program has the clipboard open."""
 
     def read(self) -> str:
         try:

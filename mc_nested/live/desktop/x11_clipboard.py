@@ -33,7 +33,7 @@ _KEEPER = Path(__file__).with_name("x11_keeper.py")
 
 
 class X11Clipboard:
-    """What Ctrl+V would paste, in the session of this process's display."""
+    """The text that Ctrl+V pastes, in the session of this process's display."""
 
     def read(self) -> str:
         with _connected() as display:

@@ -203,7 +203,7 @@ class InputController:
 
     @property
     def pressed_before(self) -> tuple[str, ...]:
-        """What ``release_again`` releases, in this order: keys by their names, buttons as "right button"."""
+        """The keys that ``release_again`` releases, in this order, by their names; buttons as "right button"."""
         return tuple(self._pressed)
 
     def go_on_after(self, pressed: Iterable[str]) -> None:

@@ -1,4 +1,4 @@
-"""What stops an agent from beside it: the panic switch, by which a person stops everything at once, and the watchdog.
+"""Two ways to stop an agent from outside: the panic switch, by which a person stops everything, and the watchdog.
 
 The watchdog is a separate thread that releases keys held too long, even if the program hangs or is busy.
 """

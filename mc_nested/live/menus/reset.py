@@ -1,4 +1,4 @@
-"""What restores an arena at a reset: chat commands, or, in games without cheats, a copy of the world's folder.
+"""Restore an arena at a reset: by chat commands, or, in games without cheats, from a copy of the world's folder.
 
 The commands are in the syntax of the game's version (FACTS: Commands). Only a world with the marker is restored:
 

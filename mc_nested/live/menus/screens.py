@@ -1,4 +1,4 @@
-"""Which screen the game shows, and the buttons of each.
+"""Identify the screen that the game shows; the buttons of each screen.
 
 A screen is known by its labels. Where none is found, as in another language, it is known by the points that a
 calibration recorded, if they look like their pictures.

@@ -29,7 +29,7 @@ Gait = Literal["walk", "sneak"]
 
 @dataclass(frozen=True)
 class HoldPlan:
-    """How to hold a key: the gait and the number of ticks."""
+    """A plan for holding a key: the gait and the number of ticks."""
 
     gait: Gait
     ticks: int

@@ -1,4 +1,4 @@
-"""What the debug screen says, in the game's words."""
+"""The values that the debug screen shows, in the game's words."""
 
 from dataclasses import dataclass
 
@@ -21,7 +21,7 @@ XYZ = tuple[float, float, float]
 
 @dataclass(frozen=True)
 class Reading:
-    """What one frame says. A frame that can't be read has no ``xyz``, and ``problem`` says why; nothing is guessed.
+    """The values on one frame. A frame that can't be read has no ``xyz``, and ``problem`` says why; nothing is guessed.
 
     ``xyz`` is the position of the player's feet in blocks at the last tick; ``yaw`` and ``pitch`` are degrees;
     ``target`` is None when no block is looked at (FACTS: The F3 debug screen).

@@ -28,7 +28,7 @@ LOST = 0.5
 
 @dataclass(frozen=True)
 class _Walked:
-    """A hold: from where the agent would have stopped, along which axis and way, how far it should lead, its length."""
+    """A hold: where the agent would have stopped before it, its axis and direction, its planned distance and length."""
 
     begin: GroundVector
     axis: int
@@ -100,7 +100,7 @@ class Locomotion:
 
     @property
     def end_if_late(self) -> GroundVector:
-        """Where the agent comes to a stop if its hold was felt a tick longer than planned."""
+        """The position at which the agent stops if its hold was felt a tick longer than planned."""
         return self._tracker.end_if_late
 
     def follow_to_end(

@@ -44,7 +44,7 @@ class Body:
 
     @property
     def tick_phase(self) -> TickPhase:
-        """When the game's ticks come."""
+        """The times at which the game's ticks come."""
         return self._observer.tick_phase
 
     def forget(self) -> None:

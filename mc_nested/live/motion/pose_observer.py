@@ -69,7 +69,7 @@ ENOUGH = 6.0
 
 
 class TickPhase:
-    """When ticks come, in seconds of the clock that the observations are given in.
+    """The times at which ticks come, in seconds of the clock that the observations are given in.
 
     Args:
         capture_latency_s: from a tick until its step is on the screen, on average.
@@ -82,7 +82,7 @@ class TickPhase:
 
     @property
     def state(self) -> tuple[float, float, float]:
-        """What the estimate rests on, to go on from: the sum of directions, and their weight."""
+        """The observations so far, to go on from: the sum of directions, and their weight."""
         return self._sum.real, self._sum.imag, self._weight
 
     def go_on_from(self, state: tuple[float, float, float]) -> None:
@@ -134,7 +134,7 @@ class PoseEstimate:
 
 @dataclass(frozen=True)
 class PoseFrame:
-    """What poses are measured in: coordinates on the ground, and the view and the height of the feet expected there."""
+    """The frame that poses are measured in: ground coordinates, and the view and height of the feet expected there."""
 
     position_of: Callable[[XYZ], GroundVector]
     yaw: float

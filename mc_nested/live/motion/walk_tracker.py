@@ -47,7 +47,7 @@ class CoastingState:
 
     @property
     def end(self) -> GroundVector:
-        """Where the walker comes to a stop."""
+        """The position at which the walker stops."""
         right, forward = (coasting_distance(speed, self.inertia) for speed in self.velocity)
         return GroundVector(self.position.right + right, self.position.forward + forward)
 
@@ -76,7 +76,7 @@ class _PathPoint(NamedTuple):
 
 
 class _Coasting(NamedTuple):
-    """From where on no key is felt: how far from the path's beginning, the velocity there, the ticks that felt the key.
+    """The start of coasting: how far from the path's beginning, the velocity there, the ticks that felt the key.
 
     ``nearest`` and ``farthest`` are bounds of all its points, ``inertia`` the share of a step that is left.
     """
@@ -90,7 +90,7 @@ class _Coasting(NamedTuple):
 
     @property
     def end(self) -> float:
-        """Where the walker comes to a stop."""
+        """The position at which the walker stops."""
         return self.covered + coasting_distance(self.velocity, self.inertia)
 
     def points(self) -> list[_PathPoint]:
@@ -179,7 +179,7 @@ class WalkTracker:
 
     @property
     def end_if_late(self) -> GroundVector:
-        """Where the walker comes to a stop if it feels the key one tick longer than planned."""
+        """The position at which the walker stops if it feels the key one tick longer than planned."""
         right, forward = (
             self._begin.position[axis]
             + sign * self._paths[axis].farthest_end(self._hold.ticks + 1 if self._hold else 0)

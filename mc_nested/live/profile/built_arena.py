@@ -1,4 +1,4 @@
-"""What a built arena is made of, in boxes. Pure. A box is two corners, the lowest and the highest, both inside.
+"""The boxes that a built arena is made of. Pure. A box is two corners, the lowest and the highest, both inside.
 
 border       a ring of blocks on the ground around the arena's cells
 . . . . . . . . .     the marked region: two blocks of air above the floor

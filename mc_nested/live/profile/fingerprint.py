@@ -1,4 +1,4 @@
-"""Whether a profile still fits the game: its version, window size and GUI scale are those it was calibrated on."""
+"""Check that a profile still fits the game: version, window size and GUI scale are those it was calibrated on."""
 
 from dataclasses import dataclass
 

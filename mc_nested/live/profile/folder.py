@@ -1,4 +1,4 @@
-"""Where a user's named profiles are."""
+"""The folder of a user's named profiles."""
 
 from pathlib import Path
 

@@ -1,4 +1,4 @@
-"""How a profile says that the debug screen is drawn."""
+"""The overlay that a profile describes: how the debug screen is drawn."""
 
 import dataclasses
 

@@ -33,7 +33,7 @@ AT_ONCE = 3_000_000
 
 
 class ByteBudget:
-    """What may be spent now. A picture's size is known only once it is packed: the last one may overdraw it.
+    """The bytes that may be written now. A picture's size is known only once it is packed: the last may overdraw it.
 
     Args:
         now: seconds from an arbitrary zero.

@@ -1,4 +1,4 @@
-"""What a recording holds: an MCAP file's topics and facts, and calls and events as plain values of JSON.
+"""The contents of a recording: an MCAP file's topics and facts, and calls and events as plain values of JSON.
 
 /calls    every call that crossed the devices, in order: what a replay needs
 /events   what happened, for people: keys, buttons, notes and errors, each with its time of day

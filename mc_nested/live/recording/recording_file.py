@@ -120,7 +120,7 @@ def _message(topic: str, data: bytes) -> Iterator[TimedCall | KeptPicture]:
 
 @dataclass(frozen=True)
 class Damage:
-    """What ends the reading of a file early."""
+    """Damage that ends the reading of a file early."""
 
     problem: str
 

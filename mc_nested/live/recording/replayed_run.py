@@ -32,7 +32,7 @@ from mc_nested.live.vision.font import Font, load_font
 
 @dataclass(frozen=True)
 class Difference:
-    """Where this version reads or decides otherwise.
+    """A call at which this version reads or decides otherwise.
 
     Attributes:
         action: the number of actions that had begun.
@@ -51,7 +51,7 @@ class Difference:
 
 @dataclass
 class Replayed:
-    """What a replay saw. Readings whose pixels were not kept are not among ``read_anew``."""
+    """The results of a replay. Readings whose pixels were not kept are not among ``read_anew``."""
 
     actions: int = 0
     followed: int = 0

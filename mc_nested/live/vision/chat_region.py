@@ -152,7 +152,7 @@ _LOWEST_HEIGHT, _LINE = 240, 9
 
 
 class ChatLines:
-    """What was sent through the chat of one game, and when; times are the clock's, in seconds."""
+    """The lines sent through the chat of one game, and when; times are the clock's, in seconds."""
 
     def __init__(self) -> None:
         self._sent: deque[tuple[float, int]] = deque(maxlen=_MOST)
@@ -172,7 +172,7 @@ class ChatLines:
 
     @property
     def state(self) -> tuple[tuple[float, int], ...]:
-        """What is known: when something was sent, and how many lines its answer may take."""
+        """The lines sent so far: when each was sent, and how many lines its answer may take."""
         return tuple(self._sent)
 
     def go_on_from(self, state: Iterable[tuple[float, int]]) -> None:

@@ -1,4 +1,4 @@
-"""What still shows of a menu's text: a button's label below the debug screen, and the words of a pause without a menu.
+"""Find partly covered texts: a button's label below the debug screen, and the words of a pause without a menu.
 
 From 1.21.9 on the debug screen lies over menus. Its ground is half-transparent, so a label's colour below it is known;
 behind its letters, brighter than anything that is dimmed, a dot may be anything (FACTS: The F3 debug screen).
@@ -36,14 +36,14 @@ _ROOM = 100
 
 
 class CoveredLabel(NamedTuple):
-    """Where the ``middle`` of a label is in a grid's dots, and whether it is white, as one that can be pressed."""
+    """A label found: its ``middle`` in a grid's dots, and whether it is white, as one that can be pressed."""
 
     middle: tuple[int, int]
     is_enabled: bool
 
 
 class ShownDots:
-    """Which dots of a picture (height, width, 3) may be a label's of a shade of grey, by it and by their shadow."""
+    """Masks of the dots of a picture (height, width, 3) that may be a grey label's, by their shade and shadow."""
 
     def __init__(self, picture: Frame, shade: int) -> None:
         channels: NDArray[np.uint8] = np.asarray(cv2.LUT(picture, _codes(shade)), np.uint8)
@@ -55,17 +55,17 @@ class ShownDots:
 
     @property
     def bare(self) -> Bools:
-        """Those that are seen with their shadow, and below no ground."""
+        """The dots that are seen with their shadow, and below no ground."""
         return np.asarray(self._grounds & 1 > 0)
 
     @cached_property
     def surely(self) -> Bools:
-        """Those that are seen with their shadow below the same ground."""
+        """The dots that are seen with their shadow below the same ground."""
         return np.asarray(self._grounds > 0)
 
     @cached_property
     def perhaps(self) -> Bools:
-        """Those and the ones that letters of the debug screen may cover, or cover the shadow of."""
+        """Those dots, and the ones that letters of the debug screen may cover, or whose shadow they may cover."""
         covered: Bools = self._picture.max(axis=2) >= min(GLUE) - INK_SPREAD
         perhaps: Bools = covered.copy()
         perhaps[:-1, :-1] |= (self._ink > 0)[:-1, :-1] & ((self._shadow > 0) | covered)[1:, 1:]
@@ -95,7 +95,7 @@ class CoveredLabels:
 
     @cached_property
     def _shown(self) -> tuple[tuple[ShownDots, bool], ...]:
-        """What may be white labels, and grey ones."""
+        """The dots that may be white labels', and grey ones'."""
         step, offset, left = self.dots.scale, self.dots.scale // 2, self._left
         right = self.dots.columns // 2 + _ROOM
         picture = np.ascontiguousarray(self.dots.frame[offset::step, offset::step][:, left:right])

@@ -73,7 +73,7 @@ class Font:
 
     @cached_property
     def gapped(self) -> Mapping[bytes, Glyph]:
-        """Those of ``lookup`` with a gap inside, the widest first. None begins with columns that are a glyph too."""
+        """Glyphs of ``lookup`` with a gap inside, the widest first. None begins with columns that are a glyph too."""
         widest_first = sorted(self.lookup.items(), key=lambda item: -len(item[0]))
         return {columns: glyph for columns, glyph in widest_first if b"\0" in columns}
 

@@ -1,4 +1,4 @@
-"""What the game's window shows: the debug screen, the line being typed, the menus. Never a guess."""
+"""Read what the game's window shows: the debug screen, the line being typed, the menus. Never a guess."""
 
 from typing import Protocol
 
@@ -111,7 +111,7 @@ class WindowScreen:
 
     @property
     def last_look(self) -> Look | None:
-        """What the last reading was taken from."""
+        """The look that the last reading was taken from."""
         return self._reader.last_look
 
     def read(self) -> Reading:

@@ -1,4 +1,4 @@
-"""What may keep a line of the debug screen from being seen: a notice over the right column, or columns that are full.
+"""Tell whether a line of the debug screen may be hidden: by a notice over the right column, or by full columns.
 
 A notice (toast) is a box of 160 x 32 dots, up to five below each other, that slides in from the right side
 (FACTS: The F3 debug screen). It is looked for by its left edge: a margin of one colour, over most of the box's height,

@@ -1,4 +1,4 @@
-"""How the game writes on the screen: its colours, its scales, and how a debug screen is laid out.
+"""The colours, scales and layouts in which the game writes on the screen.
 
 A reader has to know this before it reads a line (FACTS: The F3 debug screen).
 """
@@ -51,7 +51,7 @@ class Box(NamedTuple):
 
 @dataclass(frozen=True)
 class ScreenLayout:
-    """What all debug screens of one kind of client have in common; lengths are in dots.
+    """The features that all debug screens of one kind of client share; lengths are in dots.
 
     Attributes:
         name: as a profile names it.
@@ -101,7 +101,7 @@ BOXES = ScreenLayout(
 
 @dataclass(frozen=True)
 class Overlay:
-    """How one debug screen is drawn: what holds from frame to frame.
+    """The scale, layout and colour of one debug screen, which stay the same from frame to frame.
 
     ``scale`` is the GUI scale, framebuffer pixels a dot; ``colour`` the text's red, green and blue as seen (vanilla 224
     each, 221 to 224 seen; the stand-in 255).

@@ -1,4 +1,4 @@
-"""Where the debug screen is in a frame: its GUI scale, its colour and its layout.
+"""Find the debug screen in a frame: its GUI scale, its colour and its layout.
 
 A line is found by how it begins, its label, never by its row (FACTS: The F3 debug screen). It may stand in either
 column.

@@ -55,7 +55,7 @@ _MORE = "the picture shows more than the game's window: cut off the window's fra
 
 @dataclass(frozen=True)
 class PictureReading:
-    """What a picture file says, each with its meaning; None where it isn't there."""
+    """The values read from a picture file, each with its meaning; None where it isn't there."""
 
     file: Annotated[Path, "the picture"]
     xyz: Annotated[XYZ | None, "position of the feet"]

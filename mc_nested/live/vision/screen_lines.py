@@ -18,7 +18,7 @@ CLEAR = "clear the chat (F3+D), close what lies over it, or widen the window"
 
 
 class Unreadable(Exception):  # noqa: N818 - no error: it carries the reason why a frame gives no reading up to the Reading
-    """Why this frame gives no reading."""
+    """The reason why a frame gives no reading."""
 
 
 class DebugLines(Protocol):
@@ -26,7 +26,7 @@ class DebugLines(Protocol):
 
     @property
     def layout(self) -> ScreenLayout:
-        """How they are laid out."""
+        """The layout of the lines."""
 
     def holds(self, text: str) -> bool:
         """Return whether a text stands anywhere."""

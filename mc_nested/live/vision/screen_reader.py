@@ -99,7 +99,7 @@ def _is_of(pixel: Frame, colour: Colour) -> bool:
 
 @dataclass(frozen=True)
 class _Stood:
-    """Where the lines of a reading stood: the part of the window, and each line's position in it by how it begins.
+    """The places of a reading's lines: the part of the window, and each line's position in it by how it begins.
 
     Lines can stand at each ``pitch``-th row of dots of that part, from ``first`` on. ``sign`` shows that no block is
     looked at, where none was; the part is the whole window then.
@@ -115,7 +115,7 @@ class _Stood:
 
 @dataclass(frozen=True)
 class Look:
-    """What was read: the picture, which part of the window it shows, and the lines on it, if any were found."""
+    """A picture that was read, the part of the window that it shows, and the lines on it, if any were found."""
 
     frame: Frame
     region: Region | None

@@ -1,4 +1,4 @@
-"""What stands at the bottom of the window: the hotbar, and the line that is being typed into the chat.
+"""Read the bottom of the window: the hotbar, and the line that is being typed into the chat.
 
 The hotbar is a mark of the screen: only in the world, and behind the chat, it has its own colours. From 1.21.9 on the
 debug screen's text lies over menus, so that reading it doesn't show that none is open; before, the hotbar shows it

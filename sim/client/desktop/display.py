@@ -82,7 +82,7 @@ class VirtualDisplay:
 
     @property
     def shown_at(self) -> float:
-        """When the game drew the frame that was seen last, in seconds."""
+        """The time at which the game drew the frame that was seen last, in seconds."""
         return self._shown_at
 
     def is_black(self) -> bool:

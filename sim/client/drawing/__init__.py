@@ -1,1 +1,1 @@
-"""What the game draws: from one moment's view to the pixels of its window."""
+"""Draw the game: from one moment's view to the pixels of its window."""

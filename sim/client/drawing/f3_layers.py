@@ -82,7 +82,7 @@ class F3Boxes:
 
 
 class _Style(NamedTuple):
-    """How a client draws the screen, in GUI pixels; the alpha is out of 255, the colours are red, green, blue."""
+    """A client's style of the screen, in GUI pixels; the alpha is out of 255, the colours are red, green, blue."""
 
     pitch: int
     empty: int

@@ -1,4 +1,4 @@
-"""What is drawn over the world: crosshair, hotbar and chat while it is played, else a menu; over everything, notices.
+"""The layers over the world: crosshair, hotbar and chat while it is played, else a menu; over everything, notices.
 
 Menus have dimmed worlds, shadowed titles and grey buttons (FACTS: Screens and their buttons; Answers). Notices (toasts)
 are boxes at the upper right (FACTS: The F3 debug screen).

@@ -83,7 +83,7 @@ class _SeenFaces:
 
 
 class WorldLayer:
-    """What the player sees in a window of ``size`` pixels, width and height."""
+    """The player's sight of the world in a window of ``size`` pixels, width and height."""
 
     def __init__(self, sight: Sight, size: tuple[int, int], faces: Faces) -> None:
         self._sight, self._size, self._all_faces = sight, size, faces

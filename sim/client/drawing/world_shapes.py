@@ -1,4 +1,4 @@
-"""What the world looks like: shapes, colour and grain of its blocks, daylight, and the camera in the player's eye.
+"""The look of the world: shapes, colour and grain of its blocks, daylight, and the camera in the player's eye.
 
 The window's scene (sim/window) and the client's own pictures share it. A shape is an array (corners, 6): positions in
 blocks, then normals. Rows (n, 6) say where it is drawn: positions in blocks, then colours from 0 to 1. The camera's

@@ -35,7 +35,7 @@ class ChatLine(NamedTuple):
 
 
 class TypedLine(NamedTuple):
-    """What is typed, as it is seen: a draft is grey and slanted; ``ground`` is as a message's."""
+    """The line being typed, as it is seen: a draft is grey and slanted; ``ground`` is as a message's."""
 
     text: str
     is_draft: bool = False

@@ -1,4 +1,4 @@
-"""What keys, buttons and the mouse do on each screen when they reach the game (FACTS: Keys)."""
+"""Handle keys, buttons and the mouse on each screen when they reach the game (FACTS: Keys)."""
 
 from collections.abc import Callable
 

@@ -1,4 +1,4 @@
-"""Which entries the debug screen shows from 1.21.9 on, and debug-profile.json, which says so.
+"""The entries that the debug screen shows from 1.21.9 on, and debug-profile.json, which lists them.
 
 FACTS: The F3 debug screen. An entry's id stands here without its namespace, ``minecraft:``.
 """

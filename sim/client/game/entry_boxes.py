@@ -41,7 +41,7 @@ class Box(NamedTuple):
 
     @property
     def rows(self) -> int:
-        """How many lines of text it has, the title with them."""
+        """The number of its lines of text, the title included."""
         return bool(self.kind.title) + len(self.facts) + len(self.lines)
 
 

@@ -18,7 +18,7 @@ _PRIORITY, _SINGLE = "priority", "single"
 
 
 class _Said(NamedTuple):
-    """What an entry writes: the group that its lines belong to, and the lines in parts."""
+    """The lines that an entry writes, in parts, and the group that they belong to."""
 
     group: str
     parts: tuple[Part, ...]

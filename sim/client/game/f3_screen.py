@@ -1,4 +1,4 @@
-"""What a debug screen is about, before it is put into words, and the words that all versions share.
+"""The content of a debug screen before it is put into words, and the words that all versions share.
 
 Those are positions, directions, and the tags of blocks by version (FACTS: The F3 debug screen).
 """

@@ -19,7 +19,7 @@ HALF = 128
 
 @dataclass(frozen=True)
 class GameOptions:
-    """What options.txt says; the defaults are the game's own, in every version.
+    """The options in options.txt; the defaults are the game's own, in every version.
 
     ``gui_scale`` 0 is Auto. ``debug_gui_scale`` (26.3 on) is 0 for Auto, -1 for the GUI scale.
     ``text_background_opacity`` is 0 to 1; it counts for what is typed only without ``background_for_chat_only``.
@@ -51,7 +51,7 @@ class GameOptions:
 
     @property
     def typed_ground(self) -> int:
-        """The same behind what is being typed."""
+        """The alpha, out of 255, of the black behind the line being typed."""
         return HALF if self.background_for_chat_only else self.message_ground
 
 

@@ -1,4 +1,4 @@
-"""How a player moves in a tick: walking, sneaking, sprinting, falling, and what stops them (FACTS: Walking).
+"""Move a player by a tick: walking, sneaking, sprinting, falling, and stopping at obstacles (FACTS: Walking).
 
 In a tick, for each axis: a small speed becomes 0 -> the push is added -> the player moves, as far as blocks allow ->
 the speed is multiplied by the inertia.

@@ -1,4 +1,4 @@
-"""What a saved world holds and commands can change: blocks, player, game rules; and it as a folder on disk."""
+"""A saved world, which commands can change: blocks, player, game rules; and its folder on disk."""
 
 import gzip
 import json

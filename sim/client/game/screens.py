@@ -57,7 +57,7 @@ _OLD_GRID = ((-154, 72), (-76, 72), (4, 72), (82, 72))
 
 
 class MenuState(NamedTuple):
-    """What the look of a screen depends on: ``is_ready`` is whether its buttons are active yet.
+    """The state that the look of a screen depends on: ``is_ready`` is whether its buttons are active yet.
 
     ``choices`` are those of the debug options, found by the text ``searched``.
     """

@@ -1,4 +1,4 @@
-"""What the game shows at one moment, before anything is drawn."""
+"""The content of the game's picture at one moment, before anything is drawn."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -13,7 +13,7 @@ from sim.client.game.screens import MenuState
 
 @dataclass(frozen=True)
 class Eye:
-    """Where the camera is: its position in blocks, its view in degrees."""
+    """The camera: its position in blocks, its view in degrees."""
 
     position: tuple[float, float, float]
     yaw: float

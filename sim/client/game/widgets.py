@@ -1,4 +1,4 @@
-"""What a screen is made of: texts and their colours, buttons, panels. Positions and sizes are in GUI pixels."""
+"""The parts of a screen: texts and their colours, buttons, panels. Positions and sizes are in GUI pixels."""
 
 from dataclasses import dataclass
 from typing import Literal, NamedTuple
@@ -38,7 +38,7 @@ Effect = Literal[
 
 
 class EntryChange(NamedTuple):
-    """What another click does: show an entry of the debug screen always, with F3, or never."""
+    """The effect of a button of the debug options: show an entry always, with F3, or never."""
 
     entry: str
     status: Status

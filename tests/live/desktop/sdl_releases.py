@@ -22,7 +22,7 @@ class Sdl:
 
     @property
     def library(self) -> Path:
-        """Where it is once it is fetched."""
+        """The file of the library once it is fetched."""
         return CACHE / f"sdl-{self.release}-{self.platform}" / Path(self.member).name
 
 

@@ -64,14 +64,14 @@ def test_a_picture_is_blue_green_red_without_the_fourth_channel(shots: Shots) ->
     assert not shots.is_open
 
 
-def test_an_area_that_is_not_all_on_the_screen_is_an_error(shots: Shots) -> None:
+def test_picturing_an_area_partly_off_the_screen_is_an_error(shots: Shots) -> None:
     with open_camera() as picture, pytest.raises(DesktopError, match="all of it is on the screen"):
         picture(DesktopArea(-1, 0, 4, 3))
     assert not shots.is_open
 
 
 @pytest.mark.parametrize("area", [DesktopArea(-1, 0, 4, 3), DesktopArea(97, 0, 4, 3), DesktopArea(0, 58, 4, 3)])
-def test_where_no_error_comes_by_itself_the_area_is_compared_with_all_screens_together(
+def test_an_area_partly_outside_the_given_screens_is_refused_before_a_picture_is_taken(
     area: DesktopArea, shots: Shots
 ) -> None:
     with open_camera(lambda: DesktopArea(0, 0, 100, 60)) as picture:
@@ -81,7 +81,7 @@ def test_where_no_error_comes_by_itself_the_area_is_compared_with_all_screens_to
     assert shots.grabbed == 1
 
 
-def test_screens_that_have_moved_are_asked_for_at_each_picture(shots: Shots) -> None:
+def test_the_screens_area_is_asked_for_again_at_each_picture(shots: Shots) -> None:
     screens = [DesktopArea(0, 0, 100, 60), DesktopArea(20, 0, 100, 60)]
     with open_camera(lambda: screens.pop(0)) as picture:
         picture(DesktopArea(0, 0, 4, 3))
@@ -116,7 +116,7 @@ RIGHT = {"left": 0, "top": 56, "width": 1280, "height": 1024, "is_primary": True
 PRINTS = "from mc_nested.live.desktop.camera import monitors; print(monitors())"
 
 
-def test_each_monitor_is_listed_and_not_all_of_them_together(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_monitors_lists_each_monitor_and_leaves_out_the_area_of_all_together(monkeypatch: pytest.MonkeyPatch) -> None:
     @contextmanager
     def opened() -> Iterator[SimpleNamespace]:
         yield SimpleNamespace(monitors=[ALL, LEFT, RIGHT])
@@ -125,7 +125,7 @@ def test_each_monitor_is_listed_and_not_all_of_them_together(monkeypatch: pytest
     assert monitors() == (DesktopArea(-1920, 0, 1920, 1080), DesktopArea(0, 56, 1280, 1024))
 
 
-def test_a_desktop_that_names_no_monitor_has_none(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_no_monitors_are_listed_where_the_system_reports_an_error(monkeypatch: pytest.MonkeyPatch) -> None:
     def refuse() -> None:
         raise ScreenShotError("no RandR")
 
@@ -134,7 +134,7 @@ def test_a_desktop_that_names_no_monitor_has_none(monkeypatch: pytest.MonkeyPatc
 
 
 @pytest.mark.window
-def test_one_monitor_and_two_on_a_real_display(display: dict[str, str]) -> None:
+def test_a_real_display_lists_its_monitor_and_then_the_two_it_is_split_into(display: dict[str, str]) -> None:
     def listed() -> str:
         return subprocess.run(
             [sys.executable, "-c", PRINTS], env=display, capture_output=True, text=True, check=True

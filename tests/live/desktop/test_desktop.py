@@ -98,7 +98,7 @@ LOOKS = 100
 if sys.platform.startswith("linux"):
 
     @pytest.mark.window
-    def test_windows_that_close_meanwhile_hide_no_other(
+    def test_the_game_is_found_while_other_windows_open_and_close(
         x_screen: dict[str, str], monkeypatch: pytest.MonkeyPatch
     ) -> None:
         from Xlib.display import Display
@@ -121,7 +121,7 @@ if sys.platform.startswith("linux"):
         display.close()
 
     @pytest.mark.window
-    def test_a_browsers_page_about_the_game_is_known_by_its_class(
+    def test_a_browser_window_is_told_from_the_game_by_its_class(
         x_screen: dict[str, str], monkeypatch: pytest.MonkeyPatch
     ) -> None:
         from Xlib.display import Display

@@ -19,7 +19,9 @@ def regions(draw: st.DrawFn, width: int, height: int) -> Region:
 
 @pytest.mark.parametrize("ratio", [1, 2], ids=["points are pixels", "two pixels to a point"])
 @given(data=st.data())
-def test_a_region_is_that_part_of_the_whole_picture_wherever_the_window_is(ratio: int, data: st.DataObject) -> None:
+def test_grabbing_a_region_gives_that_part_of_the_whole_picture_wherever_the_window_is(
+    ratio: int, data: st.DataObject
+) -> None:
     window = MovingWindow(DesktopArea(5, 7, 40, 30), ratio)
     display = WindowDisplay(window, window.picture)
     window.at = DesktopArea(data.draw(st.integers(0, 40)), data.draw(st.integers(0, 30)), 40, 30)
@@ -30,19 +32,19 @@ def test_a_region_is_that_part_of_the_whole_picture_wherever_the_window_is(ratio
     np.testing.assert_array_equal(display.grab(region), expected)
 
 
-def test_only_the_asked_region_is_pictured_where_points_are_pixels() -> None:
+def test_the_camera_pictures_only_the_requested_region_where_points_are_pixels() -> None:
     window = MovingWindow(DesktopArea(5, 7, 40, 30))
     WindowDisplay(window, window.picture).grab(Region(1, 2, 10, 4))
     assert window.asked[-1] == DesktopArea(6, 9, 10, 4)
 
 
-def test_the_size_is_in_pixels_of_the_screen_that_the_window_is_on() -> None:
+def test_the_size_is_in_pixels_of_the_windows_screen() -> None:
     window = MovingWindow(DesktopArea(5, 7, 40, 30), ratio=2)
     display = WindowDisplay(window, window.picture)
     assert (display.size(), (display.area().width, display.area().height)) == ((80, 60), (40, 30))
 
 
-def test_nothing_beside_the_window_is_ever_pictured() -> None:
+def test_a_region_is_cut_to_the_window_and_refused_outside_it() -> None:
     window = MovingWindow(DesktopArea(5, 7, 40, 30))
     display = WindowDisplay(window, window.picture)
     assert display.grab(Region(30, -3, 500, 500)).shape == (30, 10, 3)
@@ -50,7 +52,7 @@ def test_nothing_beside_the_window_is_ever_pictured() -> None:
         display.grab(Region(40, 0, 5, 5))
 
 
-def test_the_title_and_the_focus_are_the_windows() -> None:
+def test_the_display_has_the_title_and_focus_of_its_window() -> None:
     display = WindowDisplay(MovingWindow(DesktopArea(5, 7, 40, 30)), lambda area: picture_of(area, 1))
     assert (display.title(), display.is_in_front()) == ("Minecraft 1.21", True)
 

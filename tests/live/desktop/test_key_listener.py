@@ -40,7 +40,7 @@ def test_windows_keys_have_the_names_of_their_scancodes(listeners: list[Listener
     assert heard == [("w", True), ("w", False), ("right.control", True), ("f10", True)]
 
 
-def test_what_windows_reports_besides_keys_is_not_heard(listeners: list[Listener]) -> None:
+def test_the_listener_ignores_windows_events_that_are_not_of_known_keys(listeners: list[Listener]) -> None:
     heard: list[tuple[str, bool]] = []
     with listening_through_pynput(lambda *key: heard.append(key)):
         on_hook = listeners[0].heard["win32_event_filter"]
@@ -69,7 +69,7 @@ def test_macos_keys_have_the_names_of_their_keycodes_whatever_they_type(listener
     assert heard == [("w", True), ("w", False), ("f12", True)]
 
 
-def test_a_slow_hearer_does_not_hold_up_the_hook(listeners: list[Listener]) -> None:
+def test_a_slow_callback_does_not_hold_up_the_hook(listeners: list[Listener]) -> None:
     may_go_on, heard = threading.Event(), list[str]()
 
     def on_key(name: str, _: bool) -> None:
@@ -85,7 +85,7 @@ def test_a_slow_hearer_does_not_hold_up_the_hook(listeners: list[Listener]) -> N
     assert heard == ["w", "a"]
 
 
-def test_the_listener_runs_for_as_long_as_the_context_lasts_and_is_waited_for(listeners: list[Listener]) -> None:
+def test_leaving_the_context_stops_the_listener_and_joins_its_thread(listeners: list[Listener]) -> None:
     with listening_through_pynput(lambda *_: None) as is_listening:
         assert is_listening()
     assert not is_listening()
@@ -102,7 +102,7 @@ if sys.platform.startswith("linux"):
         assert not is_listening()
 
 
-def test_keys_are_heard_in_order_each_once_however_long_it_is_held() -> None:
+def test_hotkeys_are_heard_in_order_and_a_held_key_only_once() -> None:
     keys = HeardKeys()
     with open_hotkeys(("f9", "k"), keys.listening) as next_key:
         for _ in range(3):
@@ -113,7 +113,7 @@ def test_keys_are_heard_in_order_each_once_however_long_it_is_held() -> None:
         assert [next_key() for _ in range(3)] == ["f9", "k", "f9"]
 
 
-def test_a_key_is_heard_by_any_of_its_names_and_called_as_it_was_asked_for() -> None:
+def test_a_hotkey_may_have_any_name_of_its_key_and_is_returned_under_that_name() -> None:
     keys = HeardKeys()
     with open_hotkeys(("escape", "K"), keys.listening) as next_key:
         keys.press("esc")
@@ -121,7 +121,7 @@ def test_a_key_is_heard_by_any_of_its_names_and_called_as_it_was_asked_for() -> 
         assert [next_key() for _ in range(2)] == ["escape", "K"]
 
 
-def test_other_keys_are_not_heard() -> None:
+def test_keys_that_are_not_hotkeys_are_ignored() -> None:
     keys = HeardKeys()
     with open_hotkeys(("f9", "k"), keys.listening) as next_key:
         for name in ("f8", "w", "k"):
@@ -148,7 +148,7 @@ def test_hotkeys_are_heard_for_as_long_as_the_context_lasts() -> None:
     assert not keys.is_listening
 
 
-def test_a_name_that_no_key_has_is_an_error_before_anything_listens() -> None:
+def test_an_unknown_hotkey_is_refused_before_the_listener_starts() -> None:
     keys = HeardKeys()
     with (
         pytest.raises(ProfileError, match="no key is named 'shift'"),
@@ -159,5 +159,5 @@ def test_a_name_that_no_key_has_is_an_error_before_anything_listens() -> None:
 
 
 @pytest.mark.standin
-def test_a_real_key_that_repeats_is_heard_once_and_others_not_at_all(x_server: dict[str, str]) -> None:
+def test_a_repeating_real_hotkey_is_heard_once_and_other_keys_are_ignored(x_server: dict[str, str]) -> None:
     assert probed(x_server, "hotkeys")["hotkeys"] == ["f9", "k", "f9"]

@@ -68,7 +68,7 @@ def test_keys_are_sent_by_their_places_and_text_by_its_characters_in_order() -> 
     assert sender.sent == [(PLACES["f3"], True), (PLACES["w"], True), (PLACES["w"], False), "/", "T", "p"]
 
 
-def test_a_name_that_no_key_has_is_an_error_before_anything_is_sent() -> None:
+def test_an_unknown_key_name_is_refused_before_anything_is_sent() -> None:
     sender = Sender()
     keyboard = DesktopKeyboard(sender)
     for act in (keyboard.press, keyboard.release):
@@ -77,7 +77,7 @@ def test_a_name_that_no_key_has_is_an_error_before_anything_is_sent() -> None:
     assert sender.sent == []
 
 
-def test_where_the_game_goes_by_symbols_a_key_is_pressed_where_its_symbol_is() -> None:
+def test_the_key_that_makes_the_symbol_is_pressed_for_a_game_that_goes_by_symbols() -> None:
     sender = Sender({"w": ("z", "z"), "z": ("w", "w"), "1": ("", "1")})
     keyboard = DesktopKeyboard(sender)
     keyboard.go_by_symbols(["w", "1"])
@@ -86,7 +86,7 @@ def test_where_the_game_goes_by_symbols_a_key_is_pressed_where_its_symbol_is() -
     assert sender.sent == [(PLACES["z"], True), (PLACES["z"], False)]
 
 
-def test_a_digit_that_needs_shift_is_pressed_with_the_right_one_which_goes_up_last() -> None:
+def test_the_right_shift_is_held_around_a_digit_that_needs_it() -> None:
     sender = Sender({"1": ("", "1")})
     keyboard = DesktopKeyboard(sender)
     keyboard.go_by_symbols(["1"])
@@ -96,7 +96,7 @@ def test_a_digit_that_needs_shift_is_pressed_with_the_right_one_which_goes_up_la
     assert sender.sent == [(shift, True), (one, True), (one, False), (shift, False)]
 
 
-def test_a_key_goes_up_where_it_went_down_though_the_layout_changes_meanwhile() -> None:
+def test_a_release_goes_to_the_pressed_place_although_the_layout_has_changed() -> None:
     sender = Sender({"w": ("z", "z"), "z": ("w", "w")})
     keyboard = DesktopKeyboard(sender)
     keyboard.go_by_symbols(["w"])
@@ -108,7 +108,7 @@ def test_a_key_goes_up_where_it_went_down_though_the_layout_changes_meanwhile() 
     assert len(sender.sent) == 2, "there is no such key any more"
 
 
-def test_a_layout_without_the_symbols_is_one_line_and_nothing_is_pressed() -> None:
+def test_a_layout_that_lacks_the_symbols_is_a_one_line_error_and_no_key_is_pressed() -> None:
     sender = Sender({"w": ("", "w"), "1": ("1", "")})
     keyboard = DesktopKeyboard(sender)
     with pytest.raises(DesktopError, match="types no w, s: switch to English \\(US\\)") as raised:
@@ -119,7 +119,7 @@ def test_a_layout_without_the_symbols_is_one_line_and_nothing_is_pressed() -> No
     assert sender.sent == []
 
 
-def test_where_every_game_goes_by_places_nothing_changes() -> None:
+def test_keys_go_by_place_on_a_desktop_without_a_symbol_layout() -> None:
     sender = Sender()
     keyboard = DesktopKeyboard(sender)
     keyboard.go_by_symbols(["w"])
@@ -128,7 +128,7 @@ def test_where_every_game_goes_by_places_nothing_changes() -> None:
 
 
 @pytest.mark.skipif(not LOST, reason="the display of an X server")
-def test_without_a_display_a_press_is_an_error_and_a_release_is_none() -> None:
+def test_pressing_or_typing_without_a_display_is_an_error_but_releasing_is_not() -> None:
     sender = Sender()
     sender.has_display = False
     keyboard = DesktopKeyboard(sender)
@@ -160,7 +160,7 @@ if sys.platform.startswith("linux"):
 
 
 @pytest.mark.standin
-def test_keys_reach_a_real_window_as_a_keyboards_own(x_server: dict[str, str]) -> None:
+def test_keys_reach_a_real_window_as_from_a_real_keyboard(x_server: dict[str, str]) -> None:
     report = probed(x_server, "keyboard")
     keys = [(event[0], event[2]) for event in report["keys"]]
     assert keys == [("press", False), ("release", False)] * 4, "as a keyboard's own, not as synthetic events"

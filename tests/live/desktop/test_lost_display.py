@@ -15,6 +15,6 @@ def test_a_display_that_closes_under_the_game_is_an_error() -> None:
             raise error("broken pipe")
 
 
-def test_other_errors_stay_as_they_are() -> None:
+def test_errors_of_other_causes_are_raised_unchanged() -> None:
     with pytest.raises(ValueError, match="other"), raise_when_display_lost():
         raise ValueError("other")

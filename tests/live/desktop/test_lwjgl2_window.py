@@ -1,4 +1,4 @@
-"""What of the project's own keys, text and clicks reaches a window of LWJGL 2, the game's to 1.12."""
+"""The project's own keys, text and clicks reach a window of LWJGL 2, the game's to 1.12."""
 
 import sys
 
@@ -43,7 +43,7 @@ def pressed(key: str, *, has_shift: bool = False) -> list[list[object]]:
 
 
 @pytest.mark.parametrize("layout", LAYOUTS)
-def test_a_key_is_what_the_layout_makes_and_is_pressed_where_that_is(
+def test_lwjgl_2_takes_keys_by_layout_and_the_keyboard_finds_each_symbols_key(
     layout: str, desktop: dict[str, str], lwjgl_program: list[str]
 ) -> None:
     set_layout(layout, desktop)
@@ -78,14 +78,12 @@ def test_text_arrives_to_the_letter(layout: str, desktop: dict[str, str], lwjgl_
     assert window_probed(desktop, "text", COMMAND, TITLE, lwjgl_program) == {"text": COMMAND}
 
 
-def test_a_hundred_clicks_move_nothing_where_a_game_holds_the_mouse(
-    desktop: dict[str, str], lwjgl_program: list[str]
-) -> None:
+def test_a_hundred_clicks_do_not_move_a_held_mouse(desktop: dict[str, str], lwjgl_program: list[str]) -> None:
     clicks = window_probed(desktop, "clicks", None, TITLE, lwjgl_program)
     assert clicks == {"has raw motion": True, "moves": True, "button": 200, "cursor": 0}
 
 
-def test_the_window_is_in_front_while_it_has_the_keyboard_and_hears_no_key_of_another_window(
+def test_the_window_is_in_front_only_with_the_focus_and_gets_no_keys_without_it(
     desktop: dict[str, str], lwjgl_program: list[str]
 ) -> None:
     report = window_probed(desktop, "focus", None, TITLE, lwjgl_program)

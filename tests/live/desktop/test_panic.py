@@ -37,7 +37,7 @@ def test_the_panic_key_stops_as_soon_as_it_goes_down(name: str, heard: str) -> N
 
 
 @pytest.mark.usefixtures("moves")
-def test_no_key_but_the_panic_key_stops() -> None:
+def test_no_key_except_the_panic_key_stops() -> None:
     keys, stopped = HeardKeys(), list[str]()
     with open_panic_switch("f12", stopped.append, keys.listening):
         for name in ("f11", "w", "left.shift"):
@@ -45,7 +45,7 @@ def test_no_key_but_the_panic_key_stops() -> None:
     assert stopped == []
 
 
-def test_the_mouse_stops_in_any_corner_and_nowhere_else(moves: list[Listener]) -> None:
+def test_moving_the_mouse_into_any_corner_stops_and_elsewhere_does_not(moves: list[Listener]) -> None:
     stopped: list[str] = []
     outside_or_beside = ((1, 0), (0, 1), (1024, 768), (1022, 767), (512, 0))
     with open_panic_switch("f12", stopped.append, HeardKeys().listening):
@@ -58,7 +58,7 @@ def test_the_mouse_stops_in_any_corner_and_nowhere_else(moves: list[Listener]) -
     assert stopped == [CORNER_REASON] * 4
 
 
-def test_a_push_that_is_reported_beyond_the_edge_stops_once_the_mouse_is_in_the_corner(
+def test_a_move_reported_beyond_the_edge_stops_only_if_the_mouse_is_in_a_corner(
     moves: list[Listener], mouse: Mouse
 ) -> None:
     stopped: list[str] = []
@@ -74,7 +74,7 @@ def test_a_push_that_is_reported_beyond_the_edge_stops_once_the_mouse_is_in_the_
     assert stopped == [CORNER_REASON]
 
 
-def test_the_panic_switch_listens_for_as_long_as_the_context_lasts_and_waits_for_its_listeners(
+def test_leaving_the_context_stops_the_panic_switch_and_joins_its_listeners(
     moves: list[Listener],
 ) -> None:
     keys = HeardKeys()
@@ -86,7 +86,7 @@ def test_the_panic_switch_listens_for_as_long_as_the_context_lasts_and_waits_for
     assert moves[0].joined == [CLOSE_S]
 
 
-def test_a_name_that_no_key_has_is_an_error_before_anything_listens(moves: list[Listener]) -> None:
+def test_an_unknown_panic_key_is_refused_before_anything_listens(moves: list[Listener]) -> None:
     with pytest.raises(ProfileError, match="no key is named 'shift'"), open_panic_switch("shift", lambda _: None):
         pass
     assert moves == []

@@ -30,7 +30,7 @@ def pointer_over(area: DesktopArea, ratio: float = 1.0) -> DesktopPointer:
 
 
 @pytest.mark.usefixtures("buttons")
-def test_positions_are_the_client_areas_pixels(mouse: Mouse) -> None:
+def test_positions_count_pixels_from_the_client_areas_corner(mouse: Mouse) -> None:
     pointer = pointer_over(DesktopArea(60, 40, 320, 240))
     pointer.move(200, 50)
     assert mouse.at == (260, 90)
@@ -38,7 +38,7 @@ def test_positions_are_the_client_areas_pixels(mouse: Mouse) -> None:
 
 
 @pytest.mark.usefixtures("buttons")
-def test_where_a_point_is_two_pixels_positions_are_still_pixels(mouse: Mouse) -> None:
+def test_positions_are_in_pixels_on_a_retina_screen_too(mouse: Mouse) -> None:
     pointer = pointer_over(DesktopArea(60, 40, 320, 240), ratio=2.0)
     pointer.move(201, 50)
     assert mouse.at == (160.5, 65)
@@ -46,7 +46,7 @@ def test_where_a_point_is_two_pixels_positions_are_still_pixels(mouse: Mouse) ->
 
 
 @pytest.mark.usefixtures("mouse")
-def test_a_button_is_pressed_and_released_by_pynput_which_moves_nothing(buttons: Buttons) -> None:
+def test_pynput_presses_and_releases_a_button_without_moving_the_mouse(buttons: Buttons) -> None:
     pointer = pointer_over(DesktopArea(60, 40, 320, 240))
     pointer.press("right")
     pointer.release("right")
@@ -54,7 +54,7 @@ def test_a_button_is_pressed_and_released_by_pynput_which_moves_nothing(buttons:
 
 
 @pytest.mark.parametrize("corner", [(0, 0), (1023, 767)])
-def test_in_a_corner_of_the_screen_nothing_is_pressed_and_all_is_released(
+def test_a_button_in_a_screen_corner_can_be_released_but_not_pressed(
     corner: tuple[int, int], mouse: Mouse, buttons: Buttons
 ) -> None:
     mouse.at = corner
@@ -67,7 +67,7 @@ def test_in_a_corner_of_the_screen_nothing_is_pressed_and_all_is_released(
 
 @pytest.mark.skipif(not LOST, reason="the display of an X server")
 @pytest.mark.usefixtures("mouse")
-def test_without_a_display_a_press_is_an_error_and_a_release_is_none(buttons: Buttons) -> None:
+def test_pressing_without_a_display_is_an_error_but_releasing_is_not(buttons: Buttons) -> None:
     buttons.has_display = False
     pointer = pointer_over(DesktopArea(60, 40, 320, 240))
     with pytest.raises(DesktopError, match="display has closed"):
@@ -75,7 +75,7 @@ def test_without_a_display_a_press_is_an_error_and_a_release_is_none(buttons: Bu
     pointer.release("left")
 
 
-def test_pyautogui_neither_pauses_nor_refuses_and_its_extras_are_importable_again(
+def test_pyautogui_has_no_pause_or_fail_safe_and_its_extras_are_importable_again(
     mouse: Mouse, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     for name in ("mouseinfo", "pyscreeze"):
@@ -97,5 +97,5 @@ def test_a_real_window_is_pointed_at_and_clicked(x_server: dict[str, str]) -> No
 if sys.platform.startswith("linux"):
 
     @pytest.mark.window
-    def test_a_hundred_clicks_move_nothing_where_a_game_holds_the_mouse(x_screen: dict[str, str]) -> None:
+    def test_a_hundred_clicks_do_not_move_a_held_mouse(x_screen: dict[str, str]) -> None:
         assert glfw_probed(x_screen, "clicks") == {"has raw motion": True, "moves": True, "button": 200, "cursor": 0}

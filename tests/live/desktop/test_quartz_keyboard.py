@@ -29,13 +29,13 @@ def test_a_key_is_sent_by_the_virtual_keycode_of_its_place(name: str, module: An
 @pytest.mark.parametrize(
     ("name", "key"), [("left.shift", "shift_l"), ("right.control", "ctrl_r"), ("left.win", "cmd_l")]
 )
-def test_a_modifier_is_sent_by_pynputs_name_so_that_it_changes_later_keys(name: str, key: str, module: Any) -> None:
+def test_a_modifier_is_sent_by_pynputs_name(name: str, key: str, module: Any) -> None:
     controller = Controller()
     module.QuartzKeySender(controller).send(PLACES[name], is_down=True)
     assert controller.sent == [("press", Key[key])]
 
 
-def test_text_is_typed_by_its_characters_and_an_interrupted_one_goes_up_again(module: Any) -> None:
+def test_a_typed_character_is_released_even_when_interrupted(module: Any) -> None:
     controller = Controller()
     sender = module.QuartzKeySender(controller)
     sender.type("~")

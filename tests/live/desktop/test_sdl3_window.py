@@ -1,4 +1,4 @@
-"""What of the project's own keys, text and clicks reaches a window of SDL 3, the game's from 26.3 on."""
+"""The project's own keys, text and clicks reach a window of SDL 3, the game's from 26.3 on."""
 
 import sys
 from collections.abc import Iterator
@@ -35,15 +35,13 @@ def test_keys_go_by_place_and_text_arrives_to_the_letter(desktop: dict[str, str]
     assert window_probed(desktop, "text", COMMAND, TITLE, sdl_program) == {"text": COMMAND}
 
 
-def test_a_hundred_clicks_move_nothing_where_a_game_holds_the_mouse(
-    desktop: dict[str, str], sdl_program: list[str]
-) -> None:
+def test_a_hundred_clicks_do_not_move_a_held_mouse(desktop: dict[str, str], sdl_program: list[str]) -> None:
     clicks = window_probed(desktop, "clicks", None, TITLE, sdl_program)
     assert (clicks["button"], clicks["cursor"]) == (200, 0)
     assert clicks["moves"] is (sdl_program[-1].endswith(".0.4.18")), "SDL 3.2 takes no absolute movement for one, here"
 
 
-def test_the_window_is_in_front_while_it_has_the_keyboard_and_hears_no_key_of_another_window(
+def test_the_window_is_in_front_only_with_the_focus_and_gets_no_keys_without_it(
     desktop: dict[str, str], sdl_program: list[str]
 ) -> None:
     report = window_probed(desktop, "focus", None, TITLE, sdl_program)

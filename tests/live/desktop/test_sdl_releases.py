@@ -1,4 +1,4 @@
-"""How the libraries of the game's windows are fetched, with a stand-in for pip; nothing here needs the network."""
+"""Fetching the libraries of the game's windows, with a stand-in for pip; nothing here needs the network."""
 
 import sys
 import zipfile
@@ -34,7 +34,7 @@ def asked(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> list[Sequence[str]
 
 
 @pytest.mark.parametrize("sdl", [SDL_3_2, SDL_3_4, SDL_3_4_WINDOWS])
-def test_a_library_is_fetched_once_by_its_hash_and_without_what_it_needs(sdl: Sdl, asked: list[Sequence[str]]) -> None:
+def test_a_library_is_fetched_once_by_its_hash_and_without_dependencies(sdl: Sdl, asked: list[Sequence[str]]) -> None:
     for _ in range(2):
         assert fetch_sdl(sdl, print).read_text() == sdl.release
     (command,) = asked
@@ -42,13 +42,13 @@ def test_a_library_is_fetched_once_by_its_hash_and_without_what_it_needs(sdl: Sd
     assert command[-1] == f"{sdl.wheel} --hash=sha256:{sdl.sha256}\n"
 
 
-def test_the_libraries_lie_apart(asked: list[Sequence[str]]) -> None:
+def test_each_library_has_a_file_of_its_own(asked: list[Sequence[str]]) -> None:
     libraries = {fetch_sdl(sdl, print) for sdl in (SDL_3_2, SDL_3_4, SDL_3_4_WINDOWS)}
     assert len(libraries) == len(asked) == 3
 
 
 @pytest.mark.usefixtures("asked")
-def test_without_the_package_index_one_line_says_so(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_an_unreachable_package_index_is_a_one_line_error(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(programs, "run_logged", lambda *_, **__: False)
     with pytest.raises(MissingError, match=r"^pip could not fetch all of tcod==21\.2\.2\.txt .* be reached\?$"):
         fetch_sdl(SDL_3_4, print)

@@ -23,7 +23,7 @@ def test_on_linux_the_system_is_x11() -> None:
     assert (done.returncode, done.stdout) == (0, "x11 X11Clipboard\n"), done.stderr
 
 
-def test_a_window_that_pictures_itself_is_not_looked_for_on_the_screen() -> None:
+def test_the_camera_of_a_window_that_pictures_itself_is_that_window() -> None:
     window = MovingWindow(DesktopArea(10, 5, 40, 30))
     with open_camera(window) as camera:
         assert camera(window.client_area()).shape == (30, 40, 3)

@@ -1,4 +1,4 @@
-"""Which window is the game's, and what its client area must be."""
+"""Finding the game's window among all windows, and checks of its client area."""
 
 import re
 
@@ -30,7 +30,7 @@ def test_the_game_is_found_among_other_windows_whatever_its_state(title: str) ->
         *("minecraft-launcher Minecraft Launcher", "prismlauncher org.prismlauncher.PrismLauncher", "opera Opera"),
     ],
 )
-def test_a_browsers_or_a_launchers_window_is_not_the_games_whatever_its_title(program: str) -> None:
+def test_a_browser_or_launcher_window_is_never_taken_for_the_game(program: str) -> None:
     windows = [TitledWindow(TAB, program), TitledWindow("Minecraft 1.20.1", "Minecraft 1.20.1 Minecraft 1.20.1")]
     assert game_window(GAME_TITLE, windows) == 1
     with pytest.raises(NoWindowError, match=re.escape(f"{TAB!r} (of {program})")):
@@ -40,15 +40,15 @@ def test_a_browsers_or_a_launchers_window_is_not_the_games_whatever_its_title(pr
 @pytest.mark.parametrize(
     "program", ["", "javaw.exe GLFW30", "java", "python3 Minecraft 1.20.1", "net-minecraft-Opera2"]
 )
-def test_a_window_of_any_other_program_may_be_the_games(program: str) -> None:
+def test_a_window_of_any_other_program_may_be_the_game(program: str) -> None:
     assert game_window(GAME_TITLE, [TitledWindow("Minecraft 1.20.1", program)]) == 0
 
 
-def test_a_title_of_the_players_own_choice_may_be_a_browsers() -> None:
+def test_a_browser_window_is_found_by_a_title_that_the_player_chose() -> None:
     assert game_window("Web Client", [TitledWindow("Prismarine Web Client", "chromium Chromium")]) == 0
 
 
-def test_a_game_with_another_title_is_not_guessed_but_told_how_to_name() -> None:
+def test_a_game_with_another_title_is_an_error_that_says_how_to_name_it() -> None:
     with pytest.raises(NoWindowError, match=r"title = 'Lunar Client' under \[window\].*'Lunar Client 1\.21\.4'"):
         found(GAME_TITLE, ["Lunar Client 1.21.4", "Terminal"])
     assert found("Lunar Client", ["Lunar Client 1.21.4", "Terminal"]) == 0
@@ -71,7 +71,7 @@ def test_an_error_names_no_more_titles_than_fit_into_a_line() -> None:
         found(GAME_TITLE, [f"tab {number:02}" for number in range(30)])
 
 
-def test_two_windows_of_the_title_are_an_error_that_names_both() -> None:
+def test_two_windows_with_a_matching_title_are_an_error_that_names_both() -> None:
     with pytest.raises(DesktopError, match=r"2 windows.*'Minecraft 1\.20\.1', 'Minecraft 1\.21'") as raised:
         found(GAME_TITLE, ["Minecraft 1.21", "Terminal", "Minecraft 1.20.1"])
     assert not isinstance(raised.value, NoWindowError)
@@ -87,18 +87,18 @@ def test_the_smallest_window_with_an_area_is_shown() -> None:
     check_shown(DesktopArea(0, 0, 1, 1), "Minecraft 1.21")
 
 
-def test_a_desktop_without_titles_names_none() -> None:
+def test_the_error_says_none_on_a_desktop_without_titles() -> None:
     with pytest.raises(NoWindowError, match=r"windows on this desktop: none$"):
         found(GAME_TITLE, ["", ""])
 
 
-def test_eight_titles_are_all_named() -> None:
+def test_the_error_names_all_of_eight_titles() -> None:
     titles = [f"tab {number}" for number in range(8)]
     with pytest.raises(NoWindowError, match=r"'tab 7'$"):
         found(GAME_TITLE, titles)
 
 
-def test_a_closed_window_is_named() -> None:
+def test_the_error_about_a_closed_window_names_it() -> None:
     assert str(closed_error("Minecraft 1.21")) == "the window 'Minecraft 1.21' has closed: start the game again"
 
 
@@ -113,5 +113,5 @@ def test_a_closed_window_is_named() -> None:
         (DesktopArea(0, 18, 2, 3), False),
     ],
 )
-def test_an_area_is_within_another_where_none_of_its_edges_is_beyond_it(area: DesktopArea, is_inside: bool) -> None:
+def test_an_area_is_within_another_if_no_edge_lies_beyond_it(area: DesktopArea, is_inside: bool) -> None:
     assert is_within(area, DesktopArea(-5, 0, 10, 20)) == is_inside

@@ -93,14 +93,14 @@ class Server:
             outer.under_pointer = inner
 
 
-def test_keys_reach_a_window_with_the_focus_or_whose_part_has_it() -> None:
+def test_a_window_is_in_front_if_it_or_a_child_has_the_focus() -> None:
     server = Server()
     assert server.window.is_in_front()
     server.focus = server.canvas
     assert server.window.is_in_front()
 
 
-def test_keys_go_elsewhere_with_the_focus_on_another_window_or_on_none() -> None:
+def test_a_window_is_not_in_front_if_another_or_none_has_the_focus() -> None:
     server = Server()
     server.point_at(server.frame, server.game)
     for focus in (server.other, X.NONE):
@@ -109,7 +109,7 @@ def test_keys_go_elsewhere_with_the_focus_on_another_window_or_on_none() -> None
 
 
 @pytest.mark.parametrize("holder", ["root", "frame", "pointer root"])
-def test_with_the_focus_around_it_keys_go_to_the_window_under_the_pointer(holder: str) -> None:
+def test_a_window_whose_parent_has_the_focus_is_in_front_under_the_pointer(holder: str) -> None:
     server = Server()
     server.focus = {"root": server.root, "frame": server.frame, "pointer root": X.PointerRoot}[holder]
     server.point_at(server.frame, server.game, server.canvas)
@@ -118,7 +118,7 @@ def test_with_the_focus_around_it_keys_go_to_the_window_under_the_pointer(holder
     assert not server.window.is_in_front()
 
 
-def test_the_client_area_is_where_the_window_is_on_the_root() -> None:
+def test_the_client_area_is_counted_from_the_root_windows_corner() -> None:
     assert Server().window.client_area() == DesktopArea(60, 40, 320, 240)
 
 
@@ -139,7 +139,7 @@ def test_a_window_that_is_not_shown_or_has_no_area_is_minimised() -> None:
         empty.window.client_area()
 
 
-def test_a_rootless_window_that_is_gone_can_not_be_pictured_but_has_closed() -> None:
+def test_picturing_a_destroyed_rootless_window_says_that_it_has_closed() -> None:
     server = Server()
     window = RootlessWindow(cast("Display", server), server.game, TITLE)
     server.game.is_gone = True
@@ -147,7 +147,7 @@ def test_a_rootless_window_that_is_gone_can_not_be_pictured_but_has_closed() -> 
         window.picture(DesktopArea(60, 40, 320, 240))
 
 
-def test_a_window_that_is_gone_has_closed() -> None:
+def test_asking_a_destroyed_window_for_its_area_says_that_it_has_closed() -> None:
     server = Server()
     server.game.is_gone = True
     with pytest.raises(DesktopError, match=f"'{TITLE}' has closed"):

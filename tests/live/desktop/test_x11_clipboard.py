@@ -62,7 +62,7 @@ def test_an_empty_text_empties_the_clipboard(clipboard: X11Clipboard) -> None:
 
 
 @pytest.mark.standin
-def test_a_text_too_long_to_be_put_back_is_refused(clipboard: X11Clipboard) -> None:
+def test_a_text_longer_than_the_limit_is_refused_and_the_clipboard_keeps_its_text(clipboard: X11Clipboard) -> None:
     clipboard.write("before")
     with pytest.raises(ClipboardError, match="too long"):
         clipboard.write("x" * (MOST_BYTES + 1))
@@ -82,7 +82,7 @@ def owner(clipboard: X11Clipboard) -> Iterator[Display]:
 
 
 @pytest.mark.standin
-def test_a_program_that_does_not_answer_is_not_waited_for_for_ever(clipboard: X11Clipboard, owner: Display) -> None:
+def test_reading_gives_up_on_an_owner_that_does_not_answer(clipboard: X11Clipboard, owner: Display) -> None:
     began = time.monotonic()
     with pytest.raises(ClipboardError, match="doesn't answer"):
         clipboard.read()
@@ -91,7 +91,7 @@ def test_a_program_that_does_not_answer_is_not_waited_for_for_ever(clipboard: X1
 
 
 @pytest.mark.standin
-def test_a_picture_is_left_alone(owner: Display) -> None:
+def test_reading_a_picture_is_an_error(owner: Display) -> None:
     reader = subprocess.Popen(
         [sys.executable, "-c", "from mc_nested.live.desktop.x11_clipboard import X11Clipboard as C; C().read()"],
         stderr=subprocess.PIPE,

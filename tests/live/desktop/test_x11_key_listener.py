@@ -13,7 +13,7 @@ from tests.live.desktop.real_windows.probed import glfw_probed
 
 @pytest.mark.window
 @pytest.mark.parametrize("layout", ["us", "fr", "ru"])
-def test_keys_are_heard_by_their_places_and_typed_text_is_no_key(layout: str, x_screen: dict[str, str]) -> None:
+def test_keys_are_heard_by_their_places_and_typed_text_is_not_heard(layout: str, x_screen: dict[str, str]) -> None:
     subprocess.run(["setxkbmap", layout], env=x_screen, check=True)
     assert glfw_probed(x_screen, "listener")["heard"] == [
         *(["w", True], ["w", False], ["left.shift", True], ["left.shift", False]),
@@ -23,7 +23,9 @@ def test_keys_are_heard_by_their_places_and_typed_text_is_no_key(layout: str, x_
 
 @pytest.mark.window
 @pytest.mark.parametrize("layout", ["us", "fr", "ru"])
-def test_the_panic_key_and_hotkeys_are_places_too(layout: str, x_screen: dict[str, str]) -> None:
+def test_the_panic_key_and_hotkeys_are_heard_by_their_places_under_any_layout(
+    layout: str, x_screen: dict[str, str]
+) -> None:
     subprocess.run(["setxkbmap", layout], env=x_screen, check=True)
     report = glfw_probed(x_screen, "hotkeys")
     assert report["stopped"] == ["the panic key was pressed"]

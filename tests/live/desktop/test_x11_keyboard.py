@@ -62,14 +62,14 @@ def test_a_letter_of_the_layout_is_typed_by_pynput_and_leaves_the_layout_alone(m
     assert display.changed == {}
 
 
-def test_a_window_that_closes_while_it_is_typed_into_is_one_line(module: Any) -> None:
+def test_a_window_that_closes_during_typing_is_a_one_line_error(module: Any) -> None:
     sender, typist = sender_of(module, FakeXDisplay(spare=20))
     typist.is_window_gone = True
     with pytest.raises(DesktopError, match="the window that was typed into has closed: start the game again"):
         sender.type("t")
 
 
-def test_a_letter_that_is_interrupted_after_its_press_goes_up_again(module: Any) -> None:
+def test_a_letter_interrupted_after_its_press_is_released(module: Any) -> None:
     sender, typist = sender_of(module, FakeXDisplay(spare=20))
     typist.is_interrupted = True
     with pytest.raises(KeyboardInterrupt):
@@ -77,7 +77,7 @@ def test_a_letter_that_is_interrupted_after_its_press_goes_up_again(module: Any)
     assert typist.sent == [("press", "t"), ("release", "t")]
 
 
-def test_any_other_letter_is_written_on_the_spare_key_that_has_it(module: Any) -> None:
+def test_a_letter_that_the_layout_lacks_is_typed_on_a_spare_key(module: Any) -> None:
     display = FakeXDisplay(spare=25)
     sender, typist = sender_of(module, display)
     sender.type("~")
@@ -89,7 +89,7 @@ def test_any_other_letter_is_written_on_the_spare_key_that_has_it(module: Any) -
     assert typist.sent == []
 
 
-def test_the_keys_are_lent_once_for_all_letters(module: Any) -> None:
+def test_the_spare_keys_are_changed_only_once_for_all_letters(module: Any) -> None:
     display = FakeXDisplay(spare=25)
     sender, _ = sender_of(module, display)
     sender.type("~")
@@ -98,7 +98,7 @@ def test_the_keys_are_lent_once_for_all_letters(module: Any) -> None:
     assert changes == display.changes
 
 
-def test_a_letter_for_which_no_key_is_left_is_an_error_and_nothing_is_written(module: Any) -> None:
+def test_a_letter_without_a_spare_key_is_refused_and_nothing_is_typed(module: Any) -> None:
     display = FakeXDisplay(spare=1)
     sender, typist = sender_of(module, display)
     for character in ("~", "木"):
@@ -107,7 +107,7 @@ def test_a_letter_for_which_no_key_is_left_is_an_error_and_nothing_is_written(mo
     assert (typist.sent, display.window.events) == ([], [])
 
 
-def test_without_a_window_that_has_the_keyboard_nothing_is_written(module: Any) -> None:
+def test_nothing_is_typed_on_a_spare_key_while_no_window_has_the_focus(module: Any) -> None:
     display = FakeXDisplay(spare=25)
     sender, _ = sender_of(module, display)
     display.get_input_focus = lambda: SimpleNamespace(focus=X.PointerRoot)  # type: ignore[method-assign]
@@ -130,18 +130,18 @@ def test_each_character_has_its_own_key_and_state() -> None:
     ]
 
 
-def test_no_place_on_a_lent_key_stays_empty_since_a_letter_beside_nothing_has_two_cases() -> None:
+def test_free_places_on_a_lent_key_repeat_its_last_character() -> None:
     display = FakeXDisplay(spare=3)
     SpareKeys(display).lend(LETTERS)  # type: ignore[arg-type]
     assert display.changed == {SPARE: LETTERS[:4], SPARE + 1: [ord("e"), ord("F"), ord("F"), ord("F")]}
 
 
-def test_characters_for_which_no_key_is_left_are_not_lent() -> None:
+def test_characters_without_a_spare_key_left_are_left_out() -> None:
     display = FakeXDisplay(spare=1)
     assert list(SpareKeys(display).lend(LETTERS)) == LETTERS[:4]  # type: ignore[arg-type]
 
 
-def test_the_keys_are_changed_in_one_go_and_again_once_windows_have_reread_the_layout(
+def test_the_keys_are_changed_together_and_again_after_a_pause(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     display = FakeXDisplay(spare=3)
@@ -152,14 +152,14 @@ def test_the_keys_are_changed_in_one_go_and_again_once_windows_have_reread_the_l
     assert (display.changes, display.syncs) == (4, 2)
 
 
-def test_without_keys_to_lend_nothing_is_waited_for(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_lending_no_characters_changes_no_key_and_does_not_wait(monkeypatch: pytest.MonkeyPatch) -> None:
     display = FakeXDisplay(spare=3)
     monkeypatch.setattr("time.sleep", lambda _: pytest.fail("it waited"))
     assert SpareKeys(display).lend([]) == {}  # type: ignore[arg-type]
     assert display.changes == 0
 
 
-def test_the_keys_type_nothing_again_once_they_are_given_back() -> None:
+def test_spare_keys_type_nothing_after_they_are_given_back() -> None:
     display = FakeXDisplay(spare=3)
     before = list(display.rows)
     keys = SpareKeys(display)  # type: ignore[arg-type]

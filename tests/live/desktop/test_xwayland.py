@@ -83,7 +83,7 @@ def test_keys_text_motions_and_clicks_reach_the_game(rootless: dict[str, str]) -
 
 
 @pytest.mark.window
-def test_the_game_is_in_front_exactly_while_a_key_would_reach_it(rootless: dict[str, str]) -> None:
+def test_the_game_is_in_front_exactly_while_keys_reach_its_window(rootless: dict[str, str]) -> None:
     report = rootless_report(rootless, "focus")
     assert report["at first"] == [True, True]
     assert report["a Wayland window"] == [False, False]
@@ -94,7 +94,7 @@ def test_the_game_is_in_front_exactly_while_a_key_would_reach_it(rootless: dict[
 
 
 @pytest.mark.window
-def test_the_game_and_the_agent_have_one_clipboard(rootless: dict[str, str]) -> None:
+def test_the_game_and_the_agent_share_one_clipboard(rootless: dict[str, str]) -> None:
     assert rootless_report(rootless, "clipboard") == {"pasted": "/tp @s 1 2 3", "copied": "F3+C's text"}
 
 
@@ -107,7 +107,7 @@ def test_the_panic_key_is_heard_while_the_game_is_in_front(rootless: dict[str, s
 
 
 @pytest.mark.window
-def test_an_xwayland_in_one_window_is_an_ordinary_x_server(rootful: dict[str, str]) -> None:
+def test_the_devices_work_on_an_xwayland_in_one_window_as_on_any_x_server(rootful: dict[str, str]) -> None:
     red, blue = [0x10, 0x20, 0xFF], [0xFF, 0x20, 0x10]
     pictured = probed(rootful, "camera")
     assert (pictured["corners"], pictured["moved"]) == ([red, red, blue, blue], [red, blue])
@@ -123,7 +123,7 @@ def test_an_xwayland_in_one_window_is_an_ordinary_x_server(rootful: dict[str, st
 
 
 @pytest.mark.window
-def test_an_xwayland_in_one_window_says_so(rootful: dict[str, str]) -> None:
+def test_the_session_kind_names_an_xwayland_in_one_window(rootful: dict[str, str]) -> None:
     code = "from mc_nested.live.desktop import session_kind; print(session_kind())"
     done = subprocess.run([sys.executable, "-c", code], env=rootful, capture_output=True, text=True, check=True)
     assert done.stdout == f"Xwayland in one window, display {rootful['DISPLAY']}; {PANIC}\n"
@@ -147,12 +147,12 @@ class Server:
         return SimpleNamespace(data=b"\0" * 4)
 
 
-def test_a_screen_without_a_picture_is_a_rootless_one() -> None:
+def test_an_x_server_whose_screen_can_not_be_pictured_is_rootless() -> None:
     assert is_rootless(cast("Display", Server(has_picture=False)))
     assert not is_rootless(cast("Display", Server()))
 
 
-def test_a_new_xwayland_says_what_it_is_and_a_server_without_outputs_is_none() -> None:
+def test_an_xwayland_is_known_by_its_extension_and_a_server_without_outputs_is_none() -> None:
     assert is_xwayland(cast("Display", Server(extensions=("XWAYLAND",))))
     assert not is_xwayland(cast("Display", Server()))
 
@@ -243,7 +243,7 @@ class PicturelessServer:
         return WindowCamera(cast("Display", self), cast("Window", self.window))
 
 
-def test_a_part_of_the_desktop_is_that_part_of_the_window() -> None:
+def test_picturing_an_area_of_the_desktop_gives_the_windows_pixels_there() -> None:
     server = PicturelessServer()
     frame = server.camera()(DesktopArea(60 + 20, 40 + 50, 4, 3))
     assert frame.shape == (3, 4, 3)
@@ -265,19 +265,19 @@ def test_a_large_picture_is_copied_once_and_fetched_in_bands() -> None:
 
 
 @pytest.mark.parametrize("area", [(59, 40, 9, 9), (60, 39, 9, 9), (372, 40, 9, 9), (60, 272, 9, 9)])
-def test_nothing_outside_the_window_is_pictured(area: Part) -> None:
+def test_picturing_an_area_beyond_the_window_is_an_error(area: Part) -> None:
     with pytest.raises(DesktopError, match="hidden or resized"):
         PicturelessServer().camera()(DesktopArea(*area))
 
 
-def test_a_window_that_is_hidden_meanwhile_is_an_error() -> None:
+def test_picturing_a_window_that_the_x_server_refuses_is_an_error() -> None:
     server = PicturelessServer()
     server.window.error = BadMatch(cast("Any", None), b"\0" * 32)
     with pytest.raises(DesktopError, match="hidden or resized"):
         server.camera()(DesktopArea(60, 40, 4, 3))
 
 
-def test_a_window_that_closes_before_it_is_copied_is_the_x_servers_error() -> None:
+def test_a_window_that_closes_before_its_copy_raises_the_x_servers_error() -> None:
     server = PicturelessServer(1280, 720)
     server.window.error = BadDrawable(cast("Any", SimpleNamespace(get_resource_class=lambda _: None)), b"\0" * 32)
     with pytest.raises(BadDrawable):
@@ -285,7 +285,7 @@ def test_a_window_that_closes_before_it_is_copied_is_the_x_servers_error() -> No
     assert server.copies[0].is_free
 
 
-def test_other_colours_than_eight_bits_each_are_refused() -> None:
+def test_a_picture_without_eight_bits_a_colour_is_refused() -> None:
     server = PicturelessServer()
     server.window.depth = 16
     with pytest.raises(DesktopError, match="colours of 16 bits"):

@@ -45,7 +45,7 @@ def _press(controller: InputController, how: str) -> None:
 
 
 @pytest.mark.parametrize("ticks", [1, 2, 3, 5, 12])
-def test_a_hold_of_n_ticks_is_n_ticks_in_the_game(ticks: int) -> None:
+def test_a_hold_of_n_ticks_walks_n_ticks_in_the_game(ticks: int) -> None:
     game = FakeGame(PROFILE)
     _controller(game).hold("w", ticks)
     game.clock.sleep_until(game.clock.now() + 2.0)
@@ -54,7 +54,7 @@ def test_a_hold_of_n_ticks_is_n_ticks_in_the_game(ticks: int) -> None:
     assert walked[2] - 0.5 == pytest.approx(PROFILE.walk.covered[ticks - 1], abs=0.001)
 
 
-def test_a_key_that_is_tapped_alone_waits_until_everything_else_is_up() -> None:
+def test_tap_alone_waits_until_every_other_key_is_up() -> None:
     game = FakeGame(PROFILE)
     controller = _controller(game)
     controller.press(game.clock.now() + 0.1, "left.shift")
@@ -65,14 +65,14 @@ def test_a_key_that_is_tapped_alone_waits_until_everything_else_is_up() -> None:
     assert game.clock.now() - began == pytest.approx(0.2 + TICK_S)
 
 
-def test_late_wake_ups_never_add_up() -> None:
+def test_a_late_clock_delays_a_hold_by_one_wake_up_and_not_by_each() -> None:
     game = FakeGame(PROFILE, clock=FakeClock(late=0.004))
     start = game.clock.now()
     _controller(game).hold("w", 12)
     assert game.clock.now() - start == pytest.approx(0.604)
 
 
-def test_a_click_is_as_long_as_the_profile_says_and_ends_while_something_is_waited_for() -> None:
+def test_a_click_lasts_the_profiles_time_and_ends_during_a_wait() -> None:
     game = FakeGame(Profile(input=InputTable(click_s=0.12)))
     controller = _controller(game)
     controller.click("right")
@@ -96,7 +96,7 @@ def test_the_release_time_of_a_held_key_can_be_changed() -> None:
 
 
 @pytest.mark.parametrize("press", ["hold", "tap", "click", "click_at", "hover", "type_line"])
-def test_nothing_is_pressed_while_another_window_is_in_front(press: str) -> None:
+def test_no_key_is_pressed_while_another_window_is_in_front(press: str) -> None:
     game = FakeGame(PROFILE, front_until=0.0)
     with pytest.raises(NotInFrontError, match="not in front"):
         _press(_controller(game), press)
@@ -105,9 +105,7 @@ def test_nothing_is_pressed_while_another_window_is_in_front(press: str) -> None
 
 @pytest.mark.parametrize("press", ["hold", "tap", "click", "click_at", "hover", "type_line"])
 @pytest.mark.parametrize("seen", ["world", "chat", "menu"])
-def test_nothing_is_pressed_that_is_meant_for_another_screen_than_the_one_just_seen(
-    press: str, seen: PressTarget
-) -> None:
+def test_a_press_for_a_screen_that_was_not_just_seen_is_refused(press: str, seen: PressTarget) -> None:
     wanted = {"click_at": "menu", "hover": "menu", "type_line": "chat"}.get(press, "world")
     game = FakeGame(PROFILE)
     controller = _controller(game)
@@ -121,7 +119,7 @@ def test_nothing_is_pressed_that_is_meant_for_another_screen_than_the_one_just_s
 
 
 @pytest.mark.parametrize("press", ["hold", "tap", "click"])
-def test_a_press_after_an_old_look_looks_again_and_is_pressed_only_if_that_confirms(press: str) -> None:
+def test_a_press_long_after_a_look_is_sent_only_if_a_second_look_confirms_the_screen(press: str) -> None:
     game = FakeGame(PROFILE)
     controller = _controller(game)
     looks: list[str] = []
@@ -141,7 +139,7 @@ def test_a_press_after_an_old_look_looks_again_and_is_pressed_only_if_that_confi
     assert len(game.presses) == 1
 
 
-def test_a_fresh_look_or_another_screen_is_not_looked_at_again() -> None:
+def test_a_press_soon_after_a_look_or_for_another_screen_does_not_look_again() -> None:
     game = FakeGame(PROFILE)
     controller = _controller(game)
     controller.confirm_screen("world", lambda: pytest.fail("looked again"))
@@ -154,7 +152,7 @@ def test_a_fresh_look_or_another_screen_is_not_looked_at_again() -> None:
 
 
 @pytest.mark.parametrize("press", ["hold", "tap", "click"])
-def test_nothing_is_pressed_while_the_world_is_not_seen(press: str) -> None:
+def test_a_press_into_the_world_is_refused_while_the_world_is_not_seen(press: str) -> None:
     game = FakeGame(PROFILE)
     controller = _controller(game)
     controller.press(game.clock.now() + 1.0, "left.shift")
@@ -166,7 +164,7 @@ def test_nothing_is_pressed_while_the_world_is_not_seen(press: str) -> None:
     assert (game.presses, game.down) == (["left.shift"], set())
 
 
-def test_a_world_that_is_not_seen_for_a_moment_is_looked_at_again_before_the_press() -> None:
+def test_a_press_waits_until_a_briefly_hidden_world_is_seen_again() -> None:
     game = FakeGame(PROFILE)
     controller = _controller(game)
     looks = iter([False, False, True, True])
@@ -178,7 +176,7 @@ def test_a_world_that_is_not_seen_for_a_moment_is_looked_at_again_before_the_pre
     assert len(again) == 1
 
 
-def test_a_press_meant_for_a_menu_or_the_chat_asks_nothing_of_the_world() -> None:
+def test_a_press_for_a_menu_or_the_chat_does_not_check_the_world() -> None:
     game = FakeGame(PROFILE)
     controller = _controller(game)
     controller.guard_world(lambda: False)
@@ -190,7 +188,7 @@ def test_a_press_meant_for_a_menu_or_the_chat_asks_nothing_of_the_world() -> Non
 
 
 @pytest.mark.parametrize("look_s", [0.0, 0.03, 0.3])
-def test_a_look_that_takes_long_makes_a_hold_late_but_not_shorter(look_s: float) -> None:
+def test_a_slow_look_delays_a_hold_but_does_not_shorten_it(look_s: float) -> None:
     game = FakeGame(PROFILE)
     controller = _controller(game)
     began = game.clock.now()
@@ -205,7 +203,7 @@ def test_a_look_that_takes_long_makes_a_hold_late_but_not_shorter(look_s: float)
     assert game.down == set()
 
 
-def test_a_stop_releases_everything_at_once_and_ends_what_is_going_on() -> None:
+def test_a_stop_releases_every_key_at_once_and_ends_waits_and_presses() -> None:
     game = FakeGame(PROFILE)
     controller = _controller(game)
     controller.press(game.clock.now() + 1.0, "w")
@@ -220,7 +218,7 @@ def test_a_stop_releases_everything_at_once_and_ends_what_is_going_on() -> None:
     assert game.presses == ["w"]
 
 
-def test_nothing_is_held_longer_than_the_longest_hold() -> None:
+def test_no_key_is_held_longer_than_the_longest_hold() -> None:
     game = FakeGame(PROFILE)
     controller = _controller(game)
     controller.press(game.clock.now() + 60.0, "w")
@@ -228,7 +226,7 @@ def test_nothing_is_held_longer_than_the_longest_hold() -> None:
     assert game.down == set()
 
 
-def test_the_watchdog_releases_only_what_is_overdue() -> None:
+def test_the_watchdog_releases_only_overdue_keys() -> None:
     game = FakeGame(PROFILE)
     controller = _controller(game)
     controller.press(game.clock.now() + 0.25, "w")
@@ -252,7 +250,7 @@ def test_a_key_is_overdue_a_quarter_of_a_second_after_its_release_time() -> None
     assert game.down == set()
 
 
-def test_what_was_pressed_in_the_world_can_be_released_again() -> None:
+def test_a_key_pressed_in_the_world_can_be_released_again() -> None:
     game = FakeGame(PROFILE)
     controller = _controller(game)
     controller.hold("w", 2)
@@ -261,7 +259,7 @@ def test_what_was_pressed_in_the_world_can_be_released_again() -> None:
     assert game.down == set()
 
 
-def test_a_changed_release_time_is_no_longer_than_the_longest_hold_either() -> None:
+def test_a_changed_release_time_is_cut_to_the_longest_hold() -> None:
     game = FakeGame(PROFILE)
     controller = _controller(game)
     controller.press(game.clock.now() + 0.2, "w")
@@ -272,7 +270,7 @@ def test_a_changed_release_time_is_no_longer_than_the_longest_hold_either() -> N
     assert game.down == set()
 
 
-def test_a_key_that_is_up_has_no_release_time_to_change() -> None:
+def test_changing_the_release_time_of_a_key_that_is_up_presses_nothing() -> None:
     game = FakeGame(PROFILE)
     controller = _controller(game)
     controller.keep_until(game.clock.now() + 1.0, "w")
@@ -288,7 +286,7 @@ def test_a_screen_that_was_just_confirmed_permits_presses_for_a_quarter_of_a_sec
     assert game.presses == ["1"]
 
 
-def test_before_any_screen_was_confirmed_nothing_is_pressed() -> None:
+def test_a_press_before_any_screen_was_confirmed_is_refused() -> None:
     game = FakeGame(PROFILE)
     controller = InputController(devices_of(game), game.profile.input)
     with pytest.raises(WrongScreenError, match="the world was not just seen"):
@@ -309,7 +307,7 @@ def test_only_keys_pressed_in_the_world_are_released_again() -> None:
     assert keyboard.released == ["esc", "1", "1"]
 
 
-def test_the_front_is_checked_without_pressing_anything() -> None:
+def test_check_front_raises_while_another_window_is_in_front() -> None:
     game = FakeGame(PROFILE)
     controller = _controller(game)
     controller.check_front()
@@ -340,9 +338,7 @@ def test_hovering_presses_nothing() -> None:
     ("off", "is_clicked"),
     [((3, 3), True), ((-3, -3), True), ((4, 0), False), ((0, 4), False), ((-4, 0), False), ((0, -4), False)],
 )
-def test_nothing_is_clicked_where_the_mouse_is_not_where_it_was_moved_to(
-    off: tuple[int, int], is_clicked: bool
-) -> None:
+def test_a_click_is_refused_if_the_mouse_has_been_moved_meanwhile(off: tuple[int, int], is_clicked: bool) -> None:
     class Drifting(FakeMenus):
         """The mouse ends up a little beside where it was moved to."""
 
@@ -368,7 +364,7 @@ def test_a_key_goes_up_within_a_tick_of_losing_the_window() -> None:
     assert game.clock.now() - start <= 0.07 + 0.05
 
 
-def test_a_failing_release_is_tried_again_when_the_controller_is_left() -> None:
+def test_a_failed_release_is_repeated_when_the_controller_is_left() -> None:
     game = FakeGame(PROFILE)
     with pytest.raises(OSError, match="keyboard is gone"), _controller(game, fail_after=1) as controller:
         controller.hold("w", 2)
@@ -395,7 +391,7 @@ def _jamming_controller(game: FakeGame) -> InputController:
     return controller
 
 
-def test_one_key_that_can_not_be_released_does_not_keep_the_others_down() -> None:
+def test_a_key_whose_release_fails_does_not_keep_other_keys_down() -> None:
     game = FakeGame(PROFILE)
     controller = _jamming_controller(game)
     controller.press(game.clock.now() + 1.0, "a", "b", "c")
@@ -442,7 +438,7 @@ class CountingKeyboard(FakeKeyboard):
         super().release(key)
 
 
-def test_releasing_everything_twice_is_fine() -> None:
+def test_releasing_everything_twice_releases_once() -> None:
     game = FakeGame(PROFILE)
     keyboard = CountingKeyboard(game)
     controller = InputController(devices_of(game, keyboard), game.profile.input)
@@ -469,7 +465,7 @@ class _EndingClock(FakeClock):
 
 
 @pytest.mark.parametrize(("number", "error"), [(signal.SIGINT, KeyboardInterrupt), (signal.SIGTERM, EndedBySignal)])
-def test_a_signal_in_the_middle_of_a_hold_leaves_nothing_down(number: int, error: type[BaseException]) -> None:
+def test_a_signal_during_a_hold_leaves_no_key_down(number: int, error: type[BaseException]) -> None:
     game = FakeGame(PROFILE, clock=_EndingClock(number))
     before = signal.getsignal(signal.SIGTERM)
     with pytest.raises(error), _controller(game) as controller:
@@ -490,7 +486,7 @@ controller_actions = st.one_of(
 
 
 @given(st.lists(controller_actions, max_size=8), st.floats(0.0, 3.0), st.integers(-1, 20))
-def test_nothing_stays_down_and_nothing_goes_elsewhere_whatever_happens(
+def test_no_key_stays_down_or_reaches_another_window_whatever_happens(
     actions: list[tuple[str, str, int | None]], front_s: float, fail_after: int
 ) -> None:
     game = FakeGame(PROFILE)

@@ -9,14 +9,14 @@ import pytest
 from mc_nested.live.input.signals import signals_as_exit
 
 
-def test_a_terminating_signal_unwinds_and_is_itself_again_afterwards() -> None:
+def test_sigterm_raises_system_exit_and_the_default_handler_is_restored() -> None:
     with pytest.raises(SystemExit) as caught, signals_as_exit():
         signal.raise_signal(signal.SIGTERM)
     assert caught.value.code == 128 + signal.SIGTERM
     assert signal.getsignal(signal.SIGTERM) == signal.SIG_DFL
 
 
-def test_a_handler_that_somebody_else_set_stays() -> None:
+def test_a_signal_handler_that_other_code_set_stays() -> None:
     received: list[int] = []
 
     def note(number: int, _frame: FrameType | None) -> None:
@@ -32,7 +32,7 @@ def test_a_handler_that_somebody_else_set_stays() -> None:
         signal.signal(signal.SIGTERM, before)
 
 
-def test_another_thread_sets_no_handler() -> None:
+def test_no_signal_handler_is_set_outside_the_main_thread() -> None:
     seen: list[object] = []
 
     def enter() -> None:

@@ -1,4 +1,4 @@
-"""Which positions of the mouse are corners of a screen.
+"""The corners of a screen, and the watchdog that releases overdue keys.
 
 The watchdog: what is held too long goes up, even while the program does nothing.
 """
@@ -14,17 +14,17 @@ from tests.live.fake_game import FakeGame, devices_of
 
 
 @pytest.mark.parametrize("corner", [(0, 0), (1919, 0), (0, 1079), (1919, 1079)])
-def test_the_last_point_of_each_side_is_a_corner(corner: tuple[int, int]) -> None:
+def test_the_corners_are_the_first_and_last_points_of_each_side(corner: tuple[int, int]) -> None:
     assert corner in corners_of(1920, 1080)
 
 
 @pytest.mark.parametrize("point", [(1, 0), (1920, 0), (0, 1080), (960, 540), (1918, 1079)])
-def test_any_other_point_is_no_corner(point: tuple[int, int]) -> None:
+def test_points_beside_or_beyond_the_corners_are_not_corners(point: tuple[int, int]) -> None:
     assert point not in corners_of(1920, 1080)
 
 
 @pytest.mark.realtime
-def test_a_key_that_is_held_past_its_time_goes_up_though_nobody_waits() -> None:
+def test_the_watchdog_thread_releases_an_overdue_key() -> None:
     game = FakeGame(Profile())
     controller = InputController(devices_of(game), game.profile.input)
     controller.confirm_screen("world")
@@ -38,7 +38,7 @@ def test_a_key_that_is_held_past_its_time_goes_up_though_nobody_waits() -> None:
 
 
 @pytest.mark.realtime
-def test_what_is_held_for_a_while_is_left_alone() -> None:
+def test_the_watchdog_thread_leaves_a_key_down_until_it_is_overdue() -> None:
     game = FakeGame(Profile())
     controller = InputController(devices_of(game), game.profile.input)
     controller.confirm_screen("world")

@@ -61,7 +61,7 @@ def test_the_chat_is_checked_every_eight_letters() -> None:
     assert screen.looks == 1 + 3 + 1
 
 
-def test_where_the_chat_can_not_be_read_the_profiles_times_are_waited() -> None:
+def test_a_profile_that_can_not_read_the_chat_waits_fixed_times_instead() -> None:
     game = FakeGame(BLIND)
     screen = ChatScreen(game)
     chat_in(game, screen).send(LINE)
@@ -71,7 +71,7 @@ def test_where_the_chat_can_not_be_read_the_profiles_times_are_waited() -> None:
     assert game.clock.now() == pytest.approx(100.0 + 0.05 + 0.3 + 0.05 + 0.7)
 
 
-def test_a_chat_that_does_not_open_is_an_error_after_the_patience_and_nothing_is_typed() -> None:
+def test_a_chat_that_does_not_open_in_time_is_an_error_and_nothing_is_typed() -> None:
     game = FakeGame(Profile())
     screen = ChatScreen(game)
     screen.closed_from_look = 1
@@ -98,7 +98,7 @@ def test_a_chat_that_can_not_be_emptied_is_not_typed_into() -> None:
     assert (game.presses[0], game.presses[-1]) == ("t", "esc")
 
 
-def test_what_the_chat_opens_with_is_deleted_before_anything_is_typed() -> None:
+def test_a_draft_in_the_opened_chat_is_deleted_before_typing() -> None:
     game = FakeGame(Profile())
     game.draft = "/fill 0 0"
     chat_in(game, ChatScreen(game)).send(LINE)
@@ -106,7 +106,7 @@ def test_what_the_chat_opens_with_is_deleted_before_anything_is_typed() -> None:
     assert game.presses == ["t", "backspace", "enter"]
 
 
-def test_a_chat_that_closes_half_way_gets_no_more_letters() -> None:
+def test_a_chat_that_closes_during_typing_gets_no_more_letters() -> None:
     game = FakeGame(Profile())
     screen = ChatScreen(game)
     screen.closed_from_look = 3

@@ -48,7 +48,7 @@ def test_a_picture_is_96_by_10_gui_pixels_around_its_point() -> None:
 
 
 @given(st.integers(1, 3000), st.integers(1, 2000), st.data())
-def test_a_fraction_leads_back_to_within_a_pixel(width: int, height: int, data: st.DataObject) -> None:
+def test_a_recorded_point_is_at_most_one_pixel_off_its_place(width: int, height: int, data: st.DataObject) -> None:
     x, y = data.draw(st.integers(0, width - 1)), data.draw(st.integers(0, height - 1))
     at = record_point("x", np.zeros((height, width, 3), np.uint8), (x, y), 1).at
     place = ClickPoint("x", at, np.zeros((1, 1, 3), np.uint8)).position((width, height))
@@ -77,7 +77,7 @@ def opened(client: VirtualClient, screen: ScreenName, *, is_chosen: bool = True)
 
 
 @pytest.mark.parametrize("version", VERSIONS)
-def test_a_button_is_known_with_the_mouse_over_it_or_not_and_greyed(version: str) -> None:
+def test_a_button_is_recognised_hovered_unhovered_and_greyed(version: str) -> None:
     client = VirtualClient(version=version)
     for screen in SCREENS:
         for button, (x, y) in buttons_of(client, screen):
@@ -93,7 +93,7 @@ def test_a_button_is_known_with_the_mouse_over_it_or_not_and_greyed(version: str
 
 @pytest.mark.parametrize("version", VERSIONS)
 @pytest.mark.parametrize("scale", [1, 2, 3])
-def test_no_button_is_taken_for_another_nor_seen_on_another_screen(version: str, scale: int) -> None:
+def test_a_button_is_not_recognised_on_other_screens_or_at_other_buttons(version: str, scale: int) -> None:
     client = VirtualClient(version=version, size=(1366, 768), scale=scale)
     frames = {screen: opened(client, screen) for screen in SCREENS}
     frames["world"] = opened(client, "world")
@@ -119,19 +119,19 @@ def named(name: str, seed: int, ground: int = 30, colour: Colour = WHITE) -> Fra
 
 
 @given(st.integers(0, 10**6), st.integers(10, 60))
-def test_a_world_is_known_by_its_name_before_any_dark_ground(seed: int, ground: int) -> None:
+def test_a_worlds_name_is_recognised_on_any_dark_background(seed: int, ground: int) -> None:
     point = record_point("world", named("New World", 0), (200, 88), 2)
     assert looks_the_same(point, named("New World", seed, ground))
 
 
 @pytest.mark.parametrize("other", ["New World 2", "New Worlds", "Mew World", "Now World", "New", "World", ""])
-def test_a_name_with_one_letter_more_or_another_is_another_world(other: str) -> None:
+def test_a_world_with_another_name_is_not_recognised(other: str) -> None:
     point = record_point("world", named("New World", 0), (200, 88), 2)
     assert not looks_the_same(point, named(other, 1))
 
 
 @pytest.mark.parametrize("change", ["black", "white", "noise", "small", "smaller than the picture"])
-def test_anything_else_at_the_point_does_not_match(change: str) -> None:
+def test_a_point_does_not_match_other_pictures_at_its_place(change: str) -> None:
     frame = named("Singleplayer", 0)
     point = record_point("x", frame, (210, 88), 2)
     others = {
@@ -145,7 +145,7 @@ def test_anything_else_at_the_point_does_not_match(change: str) -> None:
     assert not looks_the_same(point, others[change])
 
 
-def test_a_bare_spot_is_never_recognised() -> None:
+def test_a_point_on_a_plain_background_is_never_recognised() -> None:
     frame = np.full((240, 400, 3), 60, np.uint8)
     point = record_point("x", frame, (200, 100), 2)
     assert not has_pattern(point.picture)
@@ -176,7 +176,7 @@ def test_a_point_that_looks_like_its_picture_is_clicked(client: VirtualClient) -
     assert (client.game.screen, client.window.down) == ("world", set())
 
 
-def test_hovering_presses_nothing(client: VirtualClient) -> None:
+def test_hovering_over_a_point_presses_nothing(client: VirtualClient) -> None:
     point = back_to_game(client)
     assert hover_over(point, hands_of(client), client.display)
     client.clock.sleep(0.3)
@@ -185,7 +185,7 @@ def test_hovering_presses_nothing(client: VirtualClient) -> None:
 
 
 @pytest.mark.parametrize("screen", ["title", "death", "inventory", "world"])
-def test_on_another_screen_neither_the_mouse_moves_nor_anything_is_pressed(
+def test_a_point_of_another_screen_neither_moves_the_mouse_nor_clicks(
     client: VirtualClient, screen: ScreenName
 ) -> None:
     point, before = back_to_game(client), client.pointer.position()
@@ -211,7 +211,7 @@ def test_a_window_that_moves_under_the_mouse_takes_no_click(client: VirtualClien
     assert client.game.screen == "pause"
 
 
-def test_behind_another_window_nothing_is_pressed(client: VirtualClient) -> None:
+def test_a_point_is_not_clicked_while_another_window_is_in_front(client: VirtualClient) -> None:
     point = back_to_game(client)
     client.set_front(is_in_front=False)
     with pytest.raises(NotInFrontError):
@@ -219,7 +219,7 @@ def test_behind_another_window_nothing_is_pressed(client: VirtualClient) -> None
     assert client.window.strays == []
 
 
-def test_a_point_on_the_far_edges_is_the_last_pixel() -> None:
+def test_a_point_at_fraction_1_is_the_last_pixel() -> None:
     point = ClickPoint("corner", (1.0, 1.0), np.zeros((1, 1, 3), np.uint8))
     assert point.position((854, 480)) == (853, 479)
 
@@ -233,12 +233,12 @@ def test_a_picture_lies_in_a_folder_beside_the_profile() -> None:
 
 
 @given(st.text(st.characters(codec="utf-8"), min_size=1, max_size=30))
-def test_whatever_a_point_is_called_its_picture_is_one_file_in_that_folder(name: str) -> None:
+def test_a_point_of_any_name_has_its_picture_directly_in_the_pictures_folder(name: str) -> None:
     assert picture_file(Path("/x/mine.toml"), name).parent == pictures_folder(Path("/x/mine.toml"))
 
 
 @given(st.text(st.characters(codec="utf-8"), min_size=1), st.text(st.characters(codec="utf-8"), min_size=1))
-def test_two_names_are_two_files(one: str, other: str) -> None:
+def test_points_with_different_names_have_different_picture_files(one: str, other: str) -> None:
     assert (picture_file(Path("p.toml"), one) == picture_file(Path("p.toml"), other)) == (one == other)
 
 

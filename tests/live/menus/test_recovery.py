@@ -20,7 +20,7 @@ def recovery_in(menus: FakeMenus, profile: Profile | None = None) -> Recovery:
     return Recovery(profile or Profile(), connection_of(menus))
 
 
-def test_in_the_world_nothing_is_pressed() -> None:
+def test_recovery_presses_nothing_in_the_world() -> None:
     menus = FakeMenus()
     assert recovery_in(menus).recover() == ()
     assert menus.pressed == []
@@ -39,7 +39,7 @@ def test_in_the_world_nothing_is_pressed() -> None:
         ("servers", ("servers", "title", "worlds")),
     ],
 )
-def test_every_known_screen_leads_back_and_the_screens_on_the_way_are_returned(
+def test_recovery_leads_back_from_every_known_screen_and_returns_the_screens_passed(
     shown: str, passed: tuple[str, ...]
 ) -> None:
     menus = FakeMenus(shown)
@@ -47,7 +47,7 @@ def test_every_known_screen_leads_back_and_the_screens_on_the_way_are_returned(
     assert menus.shown == "world"
 
 
-def test_the_effect_of_a_press_is_looked_for_six_ticks_after_it() -> None:
+def test_recovery_looks_for_the_effect_of_a_click_after_0_3_s() -> None:
     menus = FakeMenus("pause")
     recovery_in(menus).recover()
     # The mouse is moved for a tick, pressed for the 0.08 s of a click, and then comes the effect.
@@ -69,7 +69,7 @@ def test_a_debug_screen_that_is_off_is_switched_on() -> None:
     assert menus.has_debug
 
 
-def test_an_unknown_screen_that_goes_by_itself_gets_no_key() -> None:
+def test_an_unknown_screen_that_closes_by_itself_gets_no_key() -> None:
     class Loading(FakeMenus):
         """Shows the world after the fifth look."""
 
@@ -82,7 +82,7 @@ def test_an_unknown_screen_that_goes_by_itself_gets_no_key() -> None:
     assert menus.pressed == []
 
 
-def test_after_a_known_screen_an_unknown_one_is_waited_for_as_long_again_and_gets_the_debug_key_first() -> None:
+def test_recovery_starts_over_with_the_debug_key_on_an_unknown_screen_after_a_known_one() -> None:
     class Changing(FakeMenus):
         """Unknown until the debug key was pressed, then the pause menu once, then unknown for good."""
 
@@ -98,14 +98,14 @@ def test_after_a_known_screen_an_unknown_one_is_waited_for_as_long_again_and_get
     assert menus.pressed == ["f3", (427, 100), "f3", "esc"]
 
 
-def test_what_never_becomes_the_world_is_an_error_after_the_patience_with_the_screen_and_the_reason() -> None:
+def test_recovery_that_fails_in_time_names_the_screen_and_the_readers_problem() -> None:
     menus = FakeMenus("death", greyed={"Respawn"})
     with pytest.raises(LiveError, match=rf"not reached in 60 s, the screen is death \({PROBLEM}\)"):
         recovery_in(menus).recover("the chat covers it")
     assert PATIENCE_S <= menus.clock.now() - 100.0 < PATIENCE_S + 2 * EFFECT_S
 
 
-def test_where_the_reader_has_no_reason_the_callers_is_named() -> None:
+def test_failed_recovery_names_the_callers_reason_if_the_reader_has_none() -> None:
     class Stuck(FakeMenus):
         """The chat does not close, with the debug screen readable."""
 
@@ -132,7 +132,7 @@ def test_another_window_that_stays_in_front_is_an_error_and_nothing_is_pressed()
 
 
 @pytest.mark.parametrize("shown", ["title", "worlds", "servers", "disconnected"])
-def test_from_a_server_these_screens_lead_nowhere(shown: str) -> None:
+def test_recovery_from_a_server_presses_nothing_on_screens_outside_the_world(shown: str) -> None:
     menus = FakeMenus(shown, window_title=SERVER)
     with pytest.raises(LiveError, match=f"the server was left, the screen is {shown}"):
         recovery_in(menus).recover()
@@ -146,7 +146,9 @@ def test_from_a_server_these_screens_lead_nowhere(shown: str) -> None:
         ("Minecraft 1.20.1 - Singleplayer", SERVER, "was your own, and is a server's now"),
     ],
 )
-def test_a_world_of_another_kind_is_not_the_one_that_was_left(before: str, after: str, message: str) -> None:
+def test_recovery_refuses_a_servers_world_after_an_own_one_and_the_reverse(
+    before: str, after: str, message: str
+) -> None:
     menus = FakeMenus(window_title=before)
     recovery = recovery_in(menus)
     menus.window_title = after
@@ -162,7 +164,7 @@ class Torn(FakeMenus):
         return self.looks_at_hotbar > 1 and super().shows_world()
 
 
-def test_after_a_single_torn_picture_nothing_is_pressed() -> None:
+def test_recovery_presses_nothing_after_a_single_torn_picture() -> None:
     menus = Torn()
     assert recovery_in(menus).recover() == ()
     assert menus.pressed == []
@@ -176,7 +178,7 @@ class Hidden(FakeMenus):
         return False
 
 
-def test_where_esc_only_opens_the_game_menu_the_hotbar_is_named() -> None:
+def test_recovery_that_never_sees_the_hotbar_says_so_soon() -> None:
     menus = Hidden()
     with pytest.raises(LiveError, match=r"the hotbar isn't seen .*: take off a resource pack"):
         recovery_in(menus).recover()
@@ -185,7 +187,7 @@ def test_where_esc_only_opens_the_game_menu_the_hotbar_is_named() -> None:
 
 
 @pytest.mark.parametrize("shown", ["world", "chat", "pause", "death"])
-def test_the_world_is_left_for_the_title(shown: str) -> None:
+def test_leave_world_ends_on_the_title_screen(shown: str) -> None:
     menus = FakeMenus(shown)
     recovery = recovery_in(menus)
     recovery.leave_world()
@@ -194,14 +196,14 @@ def test_the_world_is_left_for_the_title(shown: str) -> None:
     assert menus.pressed[-1] == (427, 200)
 
 
-def test_a_servers_world_is_never_left() -> None:
+def test_leave_world_refuses_to_leave_a_servers_world() -> None:
     menus = FakeMenus(window_title=SERVER)
     with pytest.raises(LiveError, match="is not left, since nothing leads back"):
         recovery_in(menus).leave_world()
     assert menus.pressed == []
 
 
-def test_a_title_that_is_not_reached_is_an_error_after_the_patience_and_an_unknown_screen_gets_no_key() -> None:
+def test_leave_world_gives_up_on_an_unknown_screen_without_pressing_a_key() -> None:
     menus = FakeMenus("inventory")
     with pytest.raises(LiveError, match="title screen was not reached, the screen is unknown"):
         recovery_in(menus).leave_world()
@@ -254,7 +256,7 @@ def test_the_chat_is_left_by_esc() -> None:
     assert (menus.pressed, menus.shown) == (["esc"], "world")
 
 
-def test_saving_and_quitting_leads_from_the_pause_menu_to_the_title() -> None:
+def test_save_and_quit_leads_from_the_pause_menu_to_the_title() -> None:
     menus = FakeMenus("pause")
     navigator_in(menus).save_and_quit()
     assert (menus.pressed, menus.shown) == ([(427, 200)], "title")
@@ -266,25 +268,25 @@ def test_a_greyed_button_is_not_clicked() -> None:
     assert menus.pressed == []
 
 
-def test_without_its_label_the_point_is_clicked() -> None:
+def test_a_button_whose_label_is_unread_is_clicked_at_its_point() -> None:
     menus = FakeMenus("pause", labels=set())
     navigator_in(menus, points=point_in(menus, "back_to_game")).leave("pause")
     assert menus.pressed == [(200, 60)]
 
 
-def test_with_its_label_no_point_is_clicked() -> None:
+def test_a_button_whose_label_is_read_is_clicked_there_and_not_at_its_point() -> None:
     menus = FakeMenus("pause")
     navigator_in(menus, points=point_in(menus, "back_to_game")).leave("pause")
     assert menus.pressed == [BUTTONS["pause"]["Back to Game"]]
 
 
-def test_without_its_label_and_without_its_point_nothing_is_clicked() -> None:
+def test_a_button_without_a_read_label_or_point_is_not_clicked() -> None:
     menus = FakeMenus("disconnected", labels=set())
     navigator_in(menus, points=point_in(menus, "singleplayer")).leave("disconnected")
     assert menus.pressed == []
 
 
-def test_a_game_menu_whose_first_button_is_covered_is_left_by_esc_and_never_by_the_last() -> None:
+def test_a_pause_menu_with_a_covered_first_button_is_left_by_esc() -> None:
     menus = FakeMenus("pause", labels={"Save and Quit to Title"})
     assert menu_name(menus) == "pause"
     navigator_in(menus).leave("pause")
@@ -292,7 +294,7 @@ def test_a_game_menu_whose_first_button_is_covered_is_left_by_esc_and_never_by_t
 
 
 @pytest.mark.parametrize(("version", "y"), [("1.20.1", 132), ("1.12.2", 100)])
-def test_without_a_name_the_first_world_of_the_list_is_chosen_and_then_played(version: str, y: int) -> None:
+def test_the_first_world_is_chosen_and_played_if_the_profile_names_none(version: str, y: int) -> None:
     # 854 pixels at GUI scale 2 have their middle at 213: (213 - 119 + 60) * 2 across, (48 or 32, + 18) * 2 down.
     menus = FakeMenus("worlds")
     navigator = navigator_in(menus, Profile(game=GameVersion(version=version)))
@@ -305,14 +307,14 @@ def test_without_a_name_the_first_world_of_the_list_is_chosen_and_then_played(ve
     assert menus.pressed[2:] == [(308, y)]
 
 
-def test_the_first_row_is_found_at_another_scale_too() -> None:
+def test_the_first_worlds_row_is_found_at_another_gui_scale() -> None:
     # 854 pixels at GUI scale 4 are 214 wide, rounded up, with their middle at 107: (107 - 119 + 60) * 4, (48 + 18) * 4.
     menus = FakeMenus("worlds", scale=4)
     navigator_in(menus).leave("worlds")
     assert menus.pressed == [(192, 264)]
 
 
-def test_a_profiles_world_is_chosen_by_its_name() -> None:
+def test_the_world_that_the_profile_names_is_chosen_by_its_name() -> None:
     menus = FakeMenus("worlds", world_names={"Arena": (250, 300)})
     navigator = navigator_in(menus, OWN_WORLD)
     navigator.leave("worlds")
@@ -320,7 +322,7 @@ def test_a_profiles_world_is_chosen_by_its_name() -> None:
     assert menus.pressed == [(250, 300), (300, 420)]
 
 
-def test_a_profiles_world_that_is_not_in_the_list_is_never_another_one() -> None:
+def test_nothing_is_clicked_if_the_profiles_world_is_not_in_the_list() -> None:
     menus = FakeMenus("worlds")
     points = point_in(menus, "world")
     navigator = navigator_in(menus, OWN_WORLD, points)
@@ -329,7 +331,7 @@ def test_a_profiles_world_that_is_not_in_the_list_is_never_another_one() -> None
     assert menus.pressed == []
 
 
-def test_a_world_is_chosen_again_while_it_can_not_be_played() -> None:
+def test_a_world_is_chosen_again_while_its_play_button_is_greyed() -> None:
     menus = FakeMenus("worlds", greyed={"Play Selected World"})
     navigator = navigator_in(menus)
     navigator.leave("worlds")
@@ -337,13 +339,13 @@ def test_a_world_is_chosen_again_while_it_can_not_be_played() -> None:
     assert menus.pressed == [(308, 132), (308, 132)]
 
 
-def test_in_another_language_the_world_is_chosen_by_its_point() -> None:
+def test_a_list_of_worlds_without_readable_labels_is_clicked_at_the_worlds_point() -> None:
     menus = FakeMenus("worlds", labels=set())
     navigator_in(menus, points=point_in(menus, "world", (400, 90))).leave("worlds")
     assert menus.pressed == [(400, 90)]
 
 
-def test_where_the_list_can_be_read_the_worlds_point_is_not_used() -> None:
+def test_a_readable_list_of_worlds_is_clicked_at_its_first_row_and_not_at_the_point() -> None:
     menus = FakeMenus("worlds")
     navigator_in(menus, points=point_in(menus, "world", (400, 90))).leave("worlds")
     assert menus.pressed == [(308, 132)]

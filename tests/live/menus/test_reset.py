@@ -53,7 +53,7 @@ def test_a_reset_clears_teleports_and_gives_in_this_order() -> None:
         ("1.13", "/fill -9 63 -20 5 63 -6 minecraft:stone keep"),
     ],
 )
-def test_holes_in_a_floor_that_is_known_are_filled_and_nothing_else(version: str, command: str) -> None:
+def test_a_reset_fills_holes_in_a_known_floor_and_replaces_no_block(version: str, command: str) -> None:
     profile = _profile(version)
     arena = profile.marked_arena().model_copy(update={"floor": "stone"})
     commands = reset_commands(profile.model_copy(update={"arena": arena}), (7, 14), [])
@@ -65,7 +65,7 @@ def test_holes_in_a_floor_that_is_known_are_filled_and_nothing_else(version: str
 @pytest.mark.parametrize(
     ("floor", "filled"), [("minecraft:stone_bricks", "minecraft:stone_bricks"), ("create:andesite", "create:andesite")]
 )
-def test_a_floor_that_names_its_namespace_keeps_it(floor: str, filled: str) -> None:
+def test_a_floors_namespace_is_kept_in_the_command(floor: str, filled: str) -> None:
     profile = _profile("1.20")
     arena = profile.marked_arena().model_copy(update={"floor": floor})
     commands = reset_commands(profile.model_copy(update={"arena": arena}), (7, 14), [])
@@ -73,7 +73,7 @@ def test_a_floor_that_names_its_namespace_keeps_it(floor: str, filled: str) -> N
 
 
 @pytest.mark.parametrize(("facing", "yaw"), [("north", "180"), ("south", "0"), ("west", "90"), ("east", "-90")])
-def test_the_teleport_looks_the_arenas_way(facing: Facing, yaw: str) -> None:
+def test_the_teleport_turns_the_player_to_the_arenas_facing(facing: Facing, yaw: str) -> None:
     assert reset_commands(_profile(facing=facing), (0, 0), [])[1] == f"/tp @s 5.5 64 -19.5 {yaw} 65"
 
 
@@ -81,7 +81,7 @@ sizes = st.integers(15, 32)
 
 
 @given(st.sampled_from(["north", "south", "west", "east"]), st.integers(-5000, 5000), st.integers(-5000, 5000), sizes)
-def test_the_fill_takes_the_arenas_cells_two_high_and_no_block_more(facing: Facing, x: int, z: int, size: int) -> None:
+def test_the_fill_covers_exactly_the_arenas_cells_two_blocks_high(facing: Facing, x: int, z: int, size: int) -> None:
     arena = Arena.around((x, 64, z), facing, size=size)
     words = reset_commands(Profile(arena=arena), (7, 14), [])[0].split()
     low, high = [int(word) for word in words[1:4]], [int(word) for word in words[4:7]]
@@ -90,12 +90,12 @@ def test_the_fill_takes_the_arenas_cells_two_high_and_no_block_more(facing: Faci
     assert (low[1], high[1]) == (64, 65)
 
 
-def test_no_line_is_longer_than_the_chat_takes() -> None:
+def test_every_command_of_a_reset_is_shorter_than_100_characters() -> None:
     far = Profile(arena=Arena.around((-29_999_999, 300, 29_999_900), "west"))
     assert max(map(len, reset_commands(far, (7, 14), ["waxed_weathered_cut_copper_stairs"]))) < 100
 
 
-def test_without_an_arena_nothing_is_typed() -> None:
+def test_a_profile_without_an_arena_has_no_reset_commands() -> None:
     with pytest.raises(ProfileError, match="run mc-nested calibrate arena"):
         reset_commands(Profile(), (7, 14), ["stone"])
 
@@ -113,7 +113,7 @@ def _texts(folder: Path) -> set[str]:
     return {path.read_text() for path in folder.rglob("*") if path.is_file() and path.name != MARKER}
 
 
-def test_the_world_becomes_the_template_and_the_last_one_is_kept(tmp_path: Path) -> None:
+def test_restore_world_replaces_the_world_by_the_template_and_keeps_the_last_one(tmp_path: Path) -> None:
     world, template = _world(tmp_path / "saves/arena", "played"), _world(tmp_path / "template", "fresh")
     (world / "extra.dat").write_text("played")
     for text in ("played", "played again"):
@@ -128,7 +128,7 @@ def test_the_world_becomes_the_template_and_the_last_one_is_kept(tmp_path: Path)
 
 
 @pytest.mark.parametrize("unmarked", ["world", "template"])
-def test_without_the_marker_nothing_is_touched(tmp_path: Path, unmarked: str) -> None:
+def test_a_world_or_template_without_the_marker_file_is_refused(tmp_path: Path, unmarked: str) -> None:
     world = _world(tmp_path / "saves/arena", "mine", marked=unmarked != "world")
     template = _world(tmp_path / "template", "fresh", marked=unmarked != "template")
     with pytest.raises(RunError, match=f"has no {MARKER}"):
@@ -154,7 +154,7 @@ def test_a_template_inside_the_world_is_refused(tmp_path: Path) -> None:
     assert _texts(world) == {"mine"}
 
 
-def test_a_disk_that_refuses_leaves_the_world_as_it_was(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_failed_rename_leaves_the_world_as_it_was(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     world, template = _world(tmp_path / "saves/arena", "mine"), _world(tmp_path / "template", "fresh")
     rename = Path.rename
 
@@ -169,7 +169,7 @@ def test_a_disk_that_refuses_leaves_the_world_as_it_was(tmp_path: Path, monkeypa
     assert _texts(world) == {"mine"}
 
 
-def test_a_copy_that_differs_is_not_used(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_copy_that_differs_from_the_template_is_not_used(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     world, template = _world(tmp_path / "saves/arena", "mine"), _world(tmp_path / "template", "fresh")
     monkeypatch.setattr("mc_nested.live.menus.reset.filecmp.cmp", lambda *_, **__: False)
     with pytest.raises(RunError, match="differs"):

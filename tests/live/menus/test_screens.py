@@ -1,4 +1,4 @@
-"""Which screen is shown: by its labels, and by recorded points where there are none."""
+"""Identifying the screen that is shown: by its labels, and by recorded points where there are none."""
 
 import numpy as np
 import pytest
@@ -40,7 +40,7 @@ def test_every_versions_label_of_the_disconnected_screen_is_known(label: str, mo
     assert identify(FakeMenus("disconnected")) == ("disconnected", PROBLEM)
 
 
-def test_a_greyed_button_is_a_label_too() -> None:
+def test_a_menu_is_known_by_a_greyed_button_too() -> None:
     assert identify(FakeMenus("death", greyed={"Respawn"})) == ("death", PROBLEM)
 
 
@@ -48,7 +48,7 @@ def test_an_open_chat_without_a_debug_screen_is_the_chat() -> None:
     assert identify(FakeMenus("chat", has_debug=False)) == ("chat", PROBLEM)
 
 
-def test_neither_label_nor_point_is_unknown() -> None:
+def test_a_screen_without_a_known_label_or_point_is_unknown() -> None:
     assert identify(FakeMenus("inventory")) == ("unknown", PROBLEM)
     assert identify(FakeMenus("title", labels=set())) == ("unknown", PROBLEM)
 
@@ -62,7 +62,7 @@ def test_a_screen_without_labels_is_known_by_its_point(point: str, name: str) ->
     assert identify(menus, point) == (name, PROBLEM)
 
 
-def test_points_that_no_screen_is_known_by_are_not_compared() -> None:
+def test_points_that_identify_no_screen_are_not_compared() -> None:
     assert identify(FakeMenus("inventory", frame=noise(1)), "world", "save_and_quit_to_title")[0] == "unknown"
 
 

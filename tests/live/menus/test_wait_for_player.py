@@ -65,7 +65,7 @@ def standing(
     )
 
 
-def test_the_player_stands_still_once_the_same_was_read_twice_in_a_row() -> None:
+def test_the_player_stands_still_once_two_readings_in_a_row_are_equal() -> None:
     assert standing([Reading(problem="off"), THERE, HERE], looks_until_front=3) == HERE
 
 
@@ -79,7 +79,7 @@ def test_a_debug_screen_that_stays_off_is_an_error_with_the_readers_reason() -> 
         standing([Reading(problem="no XYZ line: press F3")])
 
 
-def test_what_keeps_the_debug_screen_from_being_read_is_said_once_and_soon() -> None:
+def test_a_lasting_problem_of_the_debug_screen_is_said_once_and_a_short_one_never() -> None:
     said: list[str] = []
     off = [Reading(problem="no XYZ line: press F3")]
     assert standing([*off * 4, HERE], say=said.append) == HERE
@@ -93,11 +93,11 @@ def test_a_player_who_never_stands_still_is_an_error() -> None:
         standing([HERE, THERE] * int(PATIENCE_S * 10))
 
 
-def test_the_same_problem_twice_is_no_standing_still() -> None:
+def test_two_equal_problems_do_not_count_as_standing_still() -> None:
     assert standing([Reading(problem="off"), Reading(problem="off"), HERE]) == HERE
 
 
-def test_what_was_read_before_another_window_came_to_the_front_does_not_count() -> None:
+def test_a_reading_from_before_another_window_came_to_the_front_does_not_count() -> None:
     class Blinking(Window):
         """Another window is in front at every second look."""
 

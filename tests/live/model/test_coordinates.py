@@ -34,12 +34,14 @@ blocks = st.tuples(st.integers(-1000, 1000), st.integers(-60, 300), st.integers(
     ("facing", "block"),
     [("north", (12, 64, -5)), ("south", (8, 64, 1)), ("west", (7, 64, -4)), ("east", (13, 64, 0))],
 )
-def test_two_right_and_three_forward_lands_where_the_game_says(facing: Facing, block: tuple[int, int, int]) -> None:
+def test_a_cell_two_right_and_three_forward_is_the_expected_block_for_each_facing(
+    facing: Facing, block: tuple[int, int, int]
+) -> None:
     assert block_of((10, 64, -2), facing, (2, 3)) == block
 
 
 @given(facings)
-def test_forward_is_where_the_yaw_looks_and_right_a_quarter_turn_on(facing: Facing) -> None:
+def test_forward_points_along_the_yaw_and_right_a_quarter_turn_further(facing: Facing) -> None:
     for cell, turn in (((0, 1), 0.0), ((1, 0), 90.0)):
         x, _, z = block_of((0, 0, 0), facing, cell)
         yaw = math.radians(yaw_of(facing) + turn)
@@ -47,7 +49,7 @@ def test_forward_is_where_the_yaw_looks_and_right_a_quarter_turn_on(facing: Faci
 
 
 @given(blocks, facings, cells)
-def test_the_position_of_a_cells_middle_is_the_cell(
+def test_the_middle_of_a_cell_has_the_cells_own_coordinates(
     origin: tuple[int, int, int], facing: Facing, cell: tuple[int, int]
 ) -> None:
     assert position_of(origin, facing, centre_of(origin, facing, cell)) == cell
@@ -66,7 +68,7 @@ def test_a_player_who_looks_roughly_along_an_axis_faces_it(facing: Facing, off: 
     assert facing_of(yaw_of(facing) + off + 360 * turns) == facing
 
 
-def test_north_is_the_same_from_both_sides() -> None:
+def test_the_turn_between_two_yaws_crosses_180_degrees() -> None:
     assert turn_between(180.0, -179.8) == pytest.approx(0.2)
     assert turn_between(-90.0, 90.0) == 180.0
 
@@ -127,7 +129,7 @@ def test_a_click_is_right_only_if_the_floor_is_hit_from_now_until_the_latest_end
         ((13, 7), (0.1, 0.1), True),
     ],
 )
-def test_near_the_edge_towards_which_the_agent_moves_no_early_click_is_right(
+def test_no_early_click_is_right_one_cell_before_the_edge_that_the_agent_moves_towards(
     cell: tuple[int, int], towards: tuple[float, float], expected: bool
 ) -> None:
     end = GroundVector(cell[0] + towards[0], cell[1] + towards[1])

@@ -60,7 +60,7 @@ def test_every_character_that_a_us_keyboard_types_without_shift_has_a_place() ->
         ("left.win", KeyPlace(evdev=125, scan=0xE05B, mac=0x37)),
     ],
 )
-def test_a_place_has_the_numbers_of_each_systems_own_table(name: str, place: KeyPlace) -> None:
+def test_each_place_has_its_keycodes_for_all_three_systems(name: str, place: KeyPlace) -> None:
     assert PLACES[name] == place
 
 
@@ -70,7 +70,7 @@ def test_no_two_places_share_a_number(names: dict[int, str]) -> None:
 
 
 @pytest.mark.parametrize("key", ["W", "escape", "caps_lock", "page_down", *PLACES])
-def test_every_name_of_a_place_is_the_name_of_a_key(key: str) -> None:
+def test_every_place_and_every_synonym_names_a_key(key: str) -> None:
     assert is_key(key)
     check_key(key)
 
@@ -84,12 +84,12 @@ def test_an_unknown_key_is_an_error(key: str) -> None:
 
 
 @pytest.mark.parametrize(("one", "other"), [("W", "w"), ("escape", "esc"), ("page_up", "page.up")])
-def test_two_names_of_a_key_have_one_place(one: str, other: str) -> None:
+def test_synonyms_of_a_key_have_the_same_place(one: str, other: str) -> None:
     assert canonical(one) == other
     assert place_of(one) is place_of(other) is PLACES[other]
 
 
-def test_a_name_that_means_no_key_stays_as_it_is() -> None:
+def test_canonical_leaves_a_mouse_buttons_name_unchanged() -> None:
     assert canonical("left button") == "left button"
 
 
@@ -98,35 +98,35 @@ WITHOUT_LATIN_LETTERS = ("ru", "gr", "il")
 WITH_DIGITS_ABOVE = ("fr", "be", "cz")
 
 
-def test_the_us_layout_has_every_key_at_its_place_that_lwjgl_2_knows_on_x11() -> None:
+def test_the_us_layout_has_every_key_but_the_backslash_at_its_own_place() -> None:
     layout = taken_by_lwjgl(characters_of("us"))
     assert [key for key in PLACES if stroke_for(key, layout) != KeyStroke(key)] == ["\\"]
 
 
 @pytest.mark.parametrize("layout", LAYOUTS)
-def test_a_layout_has_every_key_of_the_profile_or_lacks_its_letters(layout: str) -> None:
+def test_only_layouts_without_latin_letters_lack_keys_of_the_default_profile(layout: str) -> None:
     missing = missing_keys(KeysTable().pressed(), taken_by_lwjgl(characters_of(layout)))
     assert missing == (["w", "s", "a", "d", "t"] if layout in WITHOUT_LATIN_LETTERS else [])
 
 
 @pytest.mark.parametrize("layout", LAYOUTS)
-def test_only_a_digit_above_another_character_takes_shift(layout: str) -> None:
+def test_only_digits_above_another_character_take_shift(layout: str) -> None:
     made = taken_by_lwjgl(characters_of(layout))
     with_shift = {key for key in CHARACTERS if (stroke := stroke_for(key, made)) and stroke.takes_shift}
     assert with_shift == (set("1234567890") if layout in WITH_DIGITS_ABOVE else set())
 
 
-def test_no_letter_above_another_one_is_pressed_with_shift() -> None:
+def test_a_letter_above_another_character_is_not_reached_with_shift() -> None:
     assert stroke_for("w", {"w": ("'", "w")}) is None
 
 
-def test_a_key_of_a_word_is_where_it_is_under_every_layout() -> None:
+def test_keys_named_by_a_word_stay_at_their_place_under_every_layout() -> None:
     assert stroke_for("left.shift", {}) == KeyStroke("left.shift")
     assert stroke_for("escape", {}) == KeyStroke("esc")
 
 
 @given(layout=st.sampled_from(LAYOUTS), key=st.sampled_from(sorted(CHARACTERS)))
-def test_what_is_pressed_is_taken_for_the_key_that_was_meant(layout: str, key: str) -> None:
+def test_lwjgl_2_takes_each_stroke_for_the_key_that_was_meant(layout: str, key: str) -> None:
     made = taken_by_lwjgl(characters_of(layout))
     stroke = stroke_for(key, made)
     if stroke is None:

@@ -20,11 +20,11 @@ from mc_nested.live.model.kinematics import (
 
 
 @pytest.mark.parametrize(("ticks", "blocks"), [(1, 0.210), (2, 0.427), (3, 0.642), (4, 0.857), (5, 1.073), (6, 1.291)])
-def test_walking_and_coasting_covers_what_the_facts_say(ticks: int, blocks: float) -> None:
+def test_holds_cover_the_distances_in_the_facts(ticks: int, blocks: float) -> None:
     assert displacement(ticks) == pytest.approx(blocks, abs=0.0006)
 
 
-def test_a_hold_of_no_ticks_walks_nowhere() -> None:
+def test_a_hold_of_zero_ticks_covers_no_distance() -> None:
     assert displacement(0) == 0.0
 
 
@@ -36,7 +36,7 @@ def test_one_block_takes_five_ticks() -> None:
     assert nearest_ticks(1.0, walk_response(12)) == 5
 
 
-def test_standing_still_is_nearest_to_a_tiny_distance() -> None:
+def test_zero_ticks_are_nearest_for_a_tiny_distance() -> None:
     assert nearest_ticks(0.1, walk_response(12)) == 0
 
 
@@ -71,7 +71,7 @@ def test_sneaking_is_planned_only_if_walking_misses_and_sneaking_ends_nearer(
     assert plan_hold(distance, walk_response(12), tolerance) == plan
 
 
-def test_a_hold_that_must_sneak_sneaks_as_near_as_it_can() -> None:
+def test_plan_hold_sneaks_as_near_as_possible_when_it_must_sneak() -> None:
     assert plan_hold(0.21, walk_response(12), 0.15) == HoldPlan("walk", 1)
     assert plan_hold(0.21, walk_response(12), 0.15, must_sneak=True) == HoldPlan("sneak", 3)
     assert plan_hold(0.01, walk_response(12), 0.15, must_sneak=True) == HoldPlan("sneak", 1)
@@ -94,7 +94,7 @@ def test_a_tie_between_walking_and_sneaking_is_walked() -> None:
         (-0.1, 0.0, -0.1),
     ],
 )
-def test_a_step_is_the_velocity_and_the_push_and_a_velocity_below_the_standstill_is_none(
+def test_a_step_adds_push_and_velocity_and_a_velocity_below_0_003_counts_as_0(
     velocity: float, push: float, step: float
 ) -> None:
     assert step_of(velocity, push) == pytest.approx(step)
@@ -106,11 +106,11 @@ def test_a_path_holds_each_ticks_position_until_standstill() -> None:
     assert hold_path(0) == (0.0,)
 
 
-def test_the_paths_of_all_holds_are_those_of_each() -> None:
+def test_hold_paths_agrees_with_hold_path_for_each_hold() -> None:
     assert hold_paths(12, 0.1, 0.7) == [hold_path(ticks, 0.1, 0.7) for ticks in range(13)]
 
 
-def test_other_ground_covers_another_distance() -> None:
+def test_the_distance_of_a_hold_depends_on_the_grounds_inertia() -> None:
     # A step of 0.098 with inertia 0.1 leaves 0.0098, then 0.00098 is a standstill.
     assert displacement(1, 0.1) == pytest.approx(PUSH * 1.1)
 

@@ -33,17 +33,17 @@ def test_a_version_has_three_numbers_that_order_it(version: str, numbers: tuple[
 
 
 @pytest.mark.parametrize("version", ["1.7.10", "1.12.2", "1.21.11", "26.1", "26.3.1", "26.4-snapshot-1", "27.1"])
-def test_versions_that_minecraft_has_or_may_come_to_have(version: str) -> None:
+def test_known_and_possible_future_versions_are_minecrafts(version: str) -> None:
     assert is_minecrafts(version)
 
 
 @pytest.mark.parametrize("version", ["1.22", "1.21.12", "1.20.7", "2.0", "3.5.1", "25.1", "26.0", "26.10", "0.15", ""])
-def test_versions_that_are_none_of_minecrafts(version: str) -> None:
+def test_version_numbers_that_minecraft_never_has_are_not_minecrafts(version: str) -> None:
     assert not is_minecrafts(version)
 
 
 @pytest.mark.parametrize(("version", "is_later"), [("1.21", False), ("26.4.9", False), ("26.5", True), ("27.1", True)])
-def test_a_version_later_than_all_that_are_known_is_played_with_one_line_about_it(version: str, is_later: bool) -> None:
+def test_only_a_version_later_than_all_known_ones_has_one_line_about_it(version: str, is_later: bool) -> None:
     line = later_version_line(version)
     assert (line is not None) == is_later
     assert line is None or (line.startswith(f"Minecraft {version} is later than 26.4") and "\n" not in line)
@@ -77,7 +77,7 @@ def test_the_title_says_the_version_and_the_worlds_state(title: str, version: st
         *("Minecraft 1.17 - Tryb jednoosobowy", "Minecraft Forge* 1.20.1 - シングルプレイ", "My pack - The sequel"),
     ],
 )
-def test_a_title_of_ones_own_world_or_without_a_state_is_not_shared(title: str) -> None:
+def test_a_title_that_says_single_player_or_nothing_is_not_shared(title: str) -> None:
     assert not may_be_shared(title)
 
 
@@ -90,7 +90,7 @@ def test_a_title_of_ones_own_world_or_without_a_state_is_not_shared(title: str) 
         *("Minecraft 26.3 - Multiplayer (3rd-party Server)", "Minecraft 26.4 - Multiplayer (Third-party Server)"),
     ],
 )
-def test_any_other_state_may_be_a_shared_world_in_every_language(title: str) -> None:
+def test_a_title_with_any_other_state_may_be_shared(title: str) -> None:
     assert may_be_shared(title)
 
 
@@ -102,5 +102,5 @@ def test_a_profiles_own_title_finds_the_window(title: str) -> None:
 
 
 @pytest.mark.parametrize("title", ["Minecraft Launcher", "Minecraft: NeoForge Loading...", "How Minecraft 1.20 works"])
-def test_other_windows_are_not_the_games(title: str) -> None:
+def test_the_default_title_does_not_match_windows_of_other_programs(title: str) -> None:
     assert not WindowTable().matches(title)

@@ -75,7 +75,7 @@ def test_keys_are_down_until_the_release_time(holding: Holding) -> None:
     assert [at for _, at in ups] == [pytest.approx(0.2)] * 2
 
 
-def test_the_sneak_key_goes_down_three_ticks_earlier_and_up_with_the_other_not_before_it(holding: Holding) -> None:
+def test_the_sneak_key_is_pressed_three_ticks_before_the_other_and_released_after_it(holding: Holding) -> None:
     holding.key_hold.begin_sneaking("left.shift")
     assert holding.now() == pytest.approx(SNEAK_FIRST_S)
     holding.key_hold.hold(100.0 + holding.now() + 0.1, "w", sneak="left.shift")
@@ -85,13 +85,13 @@ def test_the_sneak_key_goes_down_three_ticks_earlier_and_up_with_the_other_not_b
     assert holding.key_hold.pressed_at == pytest.approx(100.15)
 
 
-def test_a_look_that_changes_the_release_keeps_the_sneak_key_as_long(holding: Holding) -> None:
+def test_a_look_that_delays_the_release_keeps_the_sneak_key_down_too(holding: Holding) -> None:
     holding.key_hold.begin_sneaking("left.shift")
     holding.key_hold.hold(100.3, "w", sneak="left.shift", look_times=(100.2,), on_look=lambda: 100.4)
     assert [at for _, at in holding.keyboard.events[2:]] == pytest.approx([0.4, 0.4])
 
 
-def test_looks_come_at_their_times_and_none_comes_so_late_that_it_could_delay_the_release(holding: Holding) -> None:
+def test_looks_come_at_their_times_but_not_just_before_the_release(holding: Holding) -> None:
     looks: list[float] = []
     holding.key_hold.hold(100.1, "w", look_times=holding.every(0.03), on_look=lambda: looks.append(holding.now()))
     assert looks == pytest.approx([0.03, 0.06, 0.09])
@@ -105,7 +105,7 @@ def test_looks_come_at_their_times_and_none_comes_so_late_that_it_could_delay_th
     assert holding.now() == pytest.approx(release_at - 100.0)
 
 
-def test_a_look_may_change_the_release_time(holding: Holding) -> None:
+def test_a_look_can_change_the_release_time(holding: Holding) -> None:
     later = iter([None, 100.4])
     assert holding.key_hold.hold(100.2, "w", look_times=(100.05, 100.1), on_look=lambda: next(later)) == 100.4
     name, at = holding.keyboard.events[-1]
@@ -113,7 +113,7 @@ def test_a_look_may_change_the_release_time(holding: Holding) -> None:
     assert at == pytest.approx(0.4)
 
 
-def test_a_look_may_end_the_hold_at_once(holding: Holding) -> None:
+def test_a_look_can_end_the_hold_at_once(holding: Holding) -> None:
     holding.key_hold.hold(100.5, "w", look_times=holding.every(0.05), on_look=holding.game.clock.now)
     name, at = holding.keyboard.events[-1]
     assert name == "w up"
@@ -131,7 +131,7 @@ def test_a_look_that_fails_leaves_no_key_down(holding: Holding) -> None:
 
 
 @pytest.mark.parametrize("look_s", [THIRD_FRAME_S, HALF_FRAME_S])
-def test_the_first_looks_come_fast_and_all_of_them_for_a_recorded_walk(look_s: float, holding: Holding) -> None:
+def test_the_first_looks_come_fast_or_all_of_them_on_request(look_s: float, holding: Holding) -> None:
     for fast_looks, gaps in ((3, [look_s] * 3 + [FRAME_S] * 2), (EVERY_LOOK, [look_s] * 5)):
         times: list[float] = []
 
@@ -173,7 +173,7 @@ def begin_with_a_slow_look(holding: Holding, seconds: float) -> None:
     holding.game.clock.sleep_until(holding.game.clock.now() + FRESH_S + 0.01)
 
 
-def test_the_sneak_key_is_down_for_three_ticks_before_the_other_however_long_its_look_takes(holding: Holding) -> None:
+def test_the_sneak_key_is_down_for_three_ticks_even_after_a_slow_look(holding: Holding) -> None:
     def look() -> bool:
         if not holding.game.down:
             holding.game.clock.sleep_until(holding.game.clock.now() + 0.2)
@@ -188,14 +188,14 @@ def test_the_sneak_key_is_down_for_three_ticks_before_the_other_however_long_its
 
 
 @pytest.mark.parametrize("seconds", [0.5, 1.5, 2.5])
-def test_the_sneak_key_stays_down_through_the_look_before_the_other(seconds: float, holding: Holding) -> None:
+def test_the_sneak_key_stays_down_during_a_slow_look_before_the_other_key(seconds: float, holding: Holding) -> None:
     begin_with_a_slow_look(holding, seconds)
     holding.key_hold.hold(100.0 + holding.now() + 0.1, "w", sneak="left.shift")
     assert [name for name, _ in holding.keyboard.events] == ["left.shift down", "w down", "w up", "left.shift up"]
     assert holding.keyboard.events[2][1] - holding.keyboard.events[1][1] == pytest.approx(0.1)
 
 
-def test_where_the_sneak_key_went_up_meanwhile_the_other_is_not_pressed(holding: Holding) -> None:
+def test_the_other_key_is_not_pressed_if_the_sneak_key_has_gone_up(holding: Holding) -> None:
     begin_with_a_slow_look(holding, LONGEST_S)
     with pytest.raises(NotConfirmedError, match=r"left\.shift did not stay down .*: close what slows the computer"):
         holding.key_hold.hold(100.0 + holding.now() + 0.1, "w", sneak="left.shift")

@@ -80,7 +80,9 @@ def test_the_axis_with_the_larger_offset_is_walked(right: float, forward: float,
 
 
 @given(st.sampled_from([1, 2, 3, 5, 8]), st.floats(0.0, 0.049), st.floats(0.0, 0.05))
-def test_with_a_known_tick_phase_a_hold_is_felt_by_exactly_its_ticks(ticks: int, phase: float, later: float) -> None:
+def test_a_hold_is_felt_for_exactly_its_ticks_once_the_tick_phase_is_known(
+    ticks: int, phase: float, later: float
+) -> None:
     walk = Walk(phase=phase)
     walk.know_ticks()
     walk.game.clock.time += later
@@ -89,13 +91,13 @@ def test_with_a_known_tick_phase_a_hold_is_felt_by_exactly_its_ticks(ticks: int,
     assert walk.end() == pytest.approx((7.0 + displacement(ticks), 7.0), abs=0.001)
 
 
-def test_an_offset_between_two_walking_holds_is_sneaked() -> None:
+def test_locomotion_sneaks_an_offset_that_no_walking_hold_meets() -> None:
     walk = Walk(PROFILE.model_copy(update={"walk": WalkTable(covered=(0.5, 1.0, 1.5, 2.0))}))
     walk.walk(0.0, 0.24)
     assert walk.game.presses == ["left.shift", "w"]
 
 
-def test_the_state_is_known_before_the_agent_stands_still() -> None:
+def test_the_agents_end_is_known_before_it_stands_still() -> None:
     walk = Walk()
     state, pose = walk.walk(1.0, 0.0)
     assert pose.position.right < state.end.right - 0.01
@@ -103,7 +105,7 @@ def test_the_state_is_known_before_the_agent_stands_still() -> None:
     assert walk.locomotion.end_if_late == pytest.approx(state.end)
 
 
-def test_before_a_hold_has_ended_its_latest_end_is_one_tick_farther() -> None:
+def test_a_holds_latest_end_is_one_tick_farther_while_it_lasts() -> None:
     walk = Walk()
     latest: list[GroundVector] = []
     walk.observer.look()
@@ -123,7 +125,7 @@ class CountingKeyboard(FakeKeyboard):
         super().release(key)
 
 
-def test_an_agent_that_goes_on_has_its_keys_released_again_and_is_an_error_in_bounded_time() -> None:
+def test_an_agent_that_never_stops_is_an_error_after_repeated_releases() -> None:
     game = FakeGame(PROFILE, xyz=(7.5, 64.0, 7.5), yaw=0.0, pitch=65.0)
     keyboard = CountingKeyboard(game)
     devices = devices_of(game, keyboard)
@@ -153,7 +155,7 @@ def test_an_agent_whose_position_fits_no_path_is_watched_until_it_stands_still()
     assert walk.game.clock.now() - began == pytest.approx(1.0, abs=0.03)
 
 
-def test_a_press_that_comes_late_moves_the_release_so_that_the_ticks_are_the_same() -> None:
+def test_a_late_press_delays_the_release_so_that_the_hold_keeps_its_ticks() -> None:
     walk = Walk()
     walk.know_ticks()
     walk.locomotion.set_standing(walk.observer.look())
@@ -197,7 +199,7 @@ def forgetful(lost: int) -> tuple[Walk, ForgetfulKeyboard]:
     return walk, keyboard
 
 
-def test_a_hold_that_moved_too_little_makes_the_next_one_longer_until_one_is_felt() -> None:
+def test_holds_that_are_not_felt_make_the_next_ones_longer() -> None:
     walk, keyboard = forgetful(3)
     for _ in range(4):
         state, _ = walk.walk(displacement(1), 0.0)
@@ -208,7 +210,7 @@ def test_a_hold_that_moved_too_little_makes_the_next_one_longer_until_one_is_fel
     assert keyboard.held == [("a", 1)]
 
 
-def test_after_a_teleport_no_hold_is_longer_for_what_was_lost_before() -> None:
+def test_a_teleport_resets_the_length_of_the_next_hold() -> None:
     walk, keyboard = forgetful(1)
     walk.walk(displacement(1), 0.0)
     walk.locomotion.set_standing(walk.observer.look())
@@ -216,7 +218,7 @@ def test_after_a_teleport_no_hold_is_longer_for_what_was_lost_before() -> None:
     assert keyboard.held == [("d", 1), ("d", 1)]
 
 
-def test_a_short_hold_that_led_too_far_lets_the_next_one_sneak() -> None:
+def test_the_agent_sneaks_after_a_short_hold_that_led_too_far() -> None:
     walk = Walk()
     walk.locomotion.set_standing(walk.observer.look())
     walk.game.late_from, walk.game.late_until = walk.game.clock.now() + 0.04, walk.game.clock.now() + 0.14
@@ -227,7 +229,7 @@ def test_a_short_hold_that_led_too_far_lets_the_next_one_sneak() -> None:
     assert walk.game.presses == ["d", "left.shift", "a"]
 
 
-def test_forward_is_not_pressed_again_within_the_sprint_window_and_other_keys_are() -> None:
+def test_only_the_forward_key_waits_for_the_sprint_window_before_a_second_press() -> None:
     walk, keyboard = forgetful(0)
     for forward in (displacement(1), displacement(1), -displacement(1), -displacement(1)):
         walk.observer.look()

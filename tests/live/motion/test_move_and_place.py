@@ -69,14 +69,14 @@ def test_a_move_to_where_the_agent_is_presses_nothing() -> None:
     assert game.presses == []
 
 
-def test_a_swapped_pair_of_keys_is_the_profiles_business() -> None:
+def test_a_move_presses_the_key_that_the_profile_names() -> None:
     keys = SOUTH.keys.model_copy(update={"left": "d", "right": "a"})
     game = _game(profile=SOUTH.model_copy(update={"keys": keys}))
     _body(game).move_to((6, 7))
     assert game.presses == ["d"]
 
 
-def test_a_walk_response_that_is_far_off_is_mended_by_looking() -> None:
+def test_a_move_ends_well_despite_a_wrong_walk_response() -> None:
     fast = WalkTable(covered=tuple(0.5 * ticks for ticks in range(1, 13)))
     game = _game(profile=SOUTH.model_copy(update={"walk": fast}))
     _body(game).move_to((7, 8))
@@ -84,7 +84,7 @@ def test_a_walk_response_that_is_far_off_is_mended_by_looking() -> None:
     assert len(game.presses) > 1
 
 
-def test_an_agent_that_was_carried_off_is_not_walked_back_across_the_arena() -> None:
+def test_an_agent_moved_far_away_is_not_walked_back() -> None:
     game = _game((3, 3))
     with pytest.raises(NotConfirmedError, match=r"cell \(7, 8\) is no neighbour .* at \(3.00, 3.00\)"):
         _body(game).move_to((7, 8))
@@ -108,7 +108,7 @@ def test_a_block_lands_in_front_from_anywhere_within_the_tolerance(east: float, 
 
 
 @given(st.sampled_from([(7, 8), (7, 6), (6, 7), (8, 7)]), offsets, offsets, st.floats(0.05, 0.4), st.floats(0, 0.6))
-def test_what_is_built_on_the_way_is_right_or_an_error_however_late_the_game_takes_events(
+def test_building_with_late_events_is_right_or_an_error(
     cell: Cell, right: float, forward: float, since: float, late: float
 ) -> None:
     game = _game(off=(-right, forward))
@@ -127,7 +127,7 @@ def test_what_is_built_on_the_way_is_right_or_an_error_however_late_the_game_tak
 
 
 @pytest.mark.parametrize("refused", [0, 1])
-def test_an_agent_carried_on_in_its_cell_while_it_clicked_walks_back_and_clicks_again_if_it_must(refused: int) -> None:
+def test_an_agent_carried_on_within_its_cell_during_a_click_walks_back(refused: int) -> None:
     game = _game(off=(0.077, 0.135))
     game.refuse_clicks = refused
     body = _body(game)
@@ -140,7 +140,7 @@ def test_an_agent_carried_on_in_its_cell_while_it_clicked_walks_back_and_clicks_
     assert _off(game, (7, 6)) <= 0.15
 
 
-def test_an_agent_carried_past_its_cell_while_it_clicked_is_an_error() -> None:
+def test_an_agent_carried_past_its_cell_during_a_click_is_an_error() -> None:
     game = _game()
     body = _body(game)
     body.arrive((7, 7))
@@ -150,7 +150,7 @@ def test_an_agent_carried_past_its_cell_while_it_clicked_is_an_error() -> None:
 
 
 @pytest.mark.parametrize("cell", [(6, 7), (8, 7)])
-def test_a_block_beside_is_clicked_before_it_is_certain_where_the_agent_stops(cell: Cell) -> None:
+def test_a_block_beside_the_path_is_clicked_before_the_agents_stop_is_certain(cell: Cell) -> None:
     on_the_way, one_by_one = _game(), _game()
     _body(on_the_way).build(cell, {}, "minecraft:stone")
     body = _body(one_by_one)
@@ -160,7 +160,7 @@ def test_a_block_beside_is_clicked_before_it_is_certain_where_the_agent_stops(ce
     assert on_the_way.presses == one_by_one.presses
 
 
-def test_a_correction_on_the_way_to_a_block_is_counted_as_one() -> None:
+def test_a_second_hold_on_the_way_to_a_block_is_counted_as_a_correction() -> None:
     game = _game()
     body = _body(game)
     body.arrive((7, 7))
@@ -170,7 +170,7 @@ def test_a_correction_on_the_way_to_a_block_is_counted_as_one() -> None:
     assert body.effort.corrections == len([press for press in game.presses if press in "wasd"]) - 1 > 0
 
 
-def test_at_the_arenas_edge_no_click_goes_out_before_the_end_is_certain() -> None:
+def test_no_click_at_the_arenas_edge_is_sent_before_the_stop_is_certain() -> None:
     on_the_way, one_by_one = _game((1, 7)), _game((1, 7))
     _body(on_the_way).build((0, 7), {}, "minecraft:stone")
     body = _body(one_by_one)
@@ -179,7 +179,7 @@ def test_at_the_arenas_edge_no_click_goes_out_before_the_end_is_certain() -> Non
 
 
 @pytest.mark.parametrize(("size", "is_known"), [(15, False), (16, True)])
-def test_what_stands_ahead_is_checked_up_to_the_edge_of_the_arena_of_its_size(size: int, is_known: bool) -> None:
+def test_the_floor_ahead_is_checked_only_inside_the_arenas_own_size(size: int, is_known: bool) -> None:
     profile = Profile(arena=Arena.around((14, 64, 0), "south", size=size))
     game = _game((7, 14), profile)
     game.blocks[profile.marked_arena().block_of((7, 15))] = "stone"
@@ -198,7 +198,7 @@ def test_a_click_that_the_game_missed_is_repeated() -> None:
     assert (game.built, len(game.presses)) == ({FRONT}, 3)
 
 
-def test_clicks_are_repeated_in_bounded_number() -> None:
+def test_place_gives_up_after_eight_clicks() -> None:
     game = _game()
     game.hotbar.clear()
     with pytest.raises(NotConfirmedError, match=r"no minecraft:stone was seen at \(7, 64, 8\) after 8 clicks"):
@@ -221,7 +221,7 @@ def test_a_block_of_another_material_is_not_taken_for_the_right_one() -> None:
     assert len(game.presses) == 1
 
 
-def test_without_the_looked_at_block_on_the_screen_nothing_is_clicked() -> None:
+def test_nothing_is_clicked_while_the_screen_names_no_target_block() -> None:
     game = _game()
     body = Body(SOUTH, connection_to(game, FakeScreen(game, lambda: Reading((7.5, 64.0, 7.5), 0.0, 65.0))))
     with pytest.raises(NotConfirmedError, match=r"says that no block is looked at: .* on the debug screen"):
@@ -230,7 +230,7 @@ def test_without_the_looked_at_block_on_the_screen_nothing_is_clicked() -> None:
 
 
 @pytest.mark.parametrize("off", [(0.0, 0.16), (0.0, -1.0), (0.9, 0.0)])
-def test_an_agent_too_far_off_walks_back_before_it_clicks(off: tuple[float, float]) -> None:
+def test_an_agent_off_its_cells_middle_walks_back_before_it_clicks(off: tuple[float, float]) -> None:
     game = _game(off=off)
     assert _body(game).place((7, 7), "minecraft:stone") == (7, 8)
     assert game.presses[-1] == "right button"
@@ -241,14 +241,14 @@ def test_an_agent_too_far_off_walks_back_before_it_clicks(off: tuple[float, floa
 
 @given(st.floats(-0.99, -0.16), st.floats(0.0, 0.049))
 @example(off=-0.9, phase=0.0)
-def test_an_agent_that_walks_back_is_waited_for_until_it_looks_at_the_floor(off: float, phase: float) -> None:
+def test_place_waits_until_the_agent_that_walked_back_looks_at_the_floor(off: float, phase: float) -> None:
     game = _game(off=(0.0, off))
     game.phase = phase
     assert _body(game).place((7, 7), "minecraft:stone") == (7, 8)
     assert game.built == {FRONT}
 
 
-def test_an_agent_that_passes_by_the_middle_does_not_click() -> None:
+def test_an_agent_passing_the_middle_does_not_click_yet() -> None:
     game = _game()
     passing = iter([Reading((7.5, 64.0, z), 0.0, 65.0, Target((7, 63, 8), FLOOR)) for z in (7.3, 7.5, 7.7)])
     body = Body(SOUTH, connection_to(game, FakeScreen(game, lambda: next(passing, None))))
@@ -265,7 +265,7 @@ def test_an_agent_that_passes_by_the_middle_does_not_click() -> None:
         ({"xyz": (7.5, 65.0, 7.5)}, "feet are at y = 65, not 64"),
     ],
 )
-def test_a_turned_view_or_another_height_stops_everything(change: dict[str, object], complaint: str) -> None:
+def test_a_turned_view_or_another_height_stops_moves_and_clicks(change: dict[str, object], complaint: str) -> None:
     game = _game()
     for name, value in change.items():
         setattr(game, name, value)
@@ -279,7 +279,7 @@ def test_a_turned_view_or_another_height_stops_everything(change: dict[str, obje
     assert game.presses == []
 
 
-def test_an_unreadable_screen_gives_its_reason_in_bounded_time() -> None:
+def test_an_unreadable_screen_is_an_error_with_its_reason_after_5_s() -> None:
     game = _game()
     game.unreadable = True
     start = game.clock.now()
@@ -288,14 +288,14 @@ def test_an_unreadable_screen_gives_its_reason_in_bounded_time() -> None:
     assert game.clock.now() - start == pytest.approx(5.0, abs=0.1)
 
 
-def test_a_short_unreadable_while_is_waited_out() -> None:
+def test_a_move_waits_while_the_screen_is_briefly_unreadable() -> None:
     game = _game()
     readings = iter([Reading(problem="chat covers it")] * 20)
     body = Body(SOUTH, connection_to(game, FakeScreen(game, lambda: next(readings, None))))
     assert body.move_to((7, 8)).cell == (7, 8)
 
 
-def test_a_player_who_is_pushed_on_and_on_is_noticed() -> None:
+def test_a_move_fails_if_the_player_is_pushed_on_and_on() -> None:
     game = _game()
     floor = Target((7, 63, 8), "minecraft:" + FLOOR)
     drift = FakeScreen(game, lambda: Reading((7.5, 64.0, game.clock.now() % 15), 0.0, 65.0, floor))
@@ -304,7 +304,7 @@ def test_a_player_who_is_pushed_on_and_on_is_noticed() -> None:
         body.move_to((7, 8))
 
 
-def test_an_arrival_is_waited_for() -> None:
+def test_arrive_waits_for_the_agent_and_names_the_cell_if_it_does_not_come() -> None:
     game = _game()
     arrival = game.clock.now() + 2.0
     late = FakeScreen(game, lambda: None if game.clock.now() > arrival else Reading((0, 9, 0), 1, 1))
@@ -317,7 +317,7 @@ def test_an_arrival_is_waited_for() -> None:
         body.arrive((7, 14))
 
 
-def test_a_window_that_goes_away_stops_a_move() -> None:
+def test_a_move_stops_when_another_window_comes_to_the_front() -> None:
     game = _game()
     game.front_until = game.clock.now() + 0.1
     with pytest.raises(NotInFrontError):
@@ -325,7 +325,7 @@ def test_a_window_that_goes_away_stops_a_move() -> None:
     assert game.down == set()
 
 
-def test_a_pose_that_does_not_look_at_the_floor_is_never_clicked_from() -> None:
+def test_place_does_not_click_from_a_given_pose_that_looks_at_a_block() -> None:
     game = _game()
     body = _body(game)
     game.blocks[FRONT] = "stone"
@@ -334,7 +334,7 @@ def test_a_pose_that_does_not_look_at_the_floor_is_never_clicked_from() -> None:
     assert game.presses == []
 
 
-def test_a_cell_two_blocks_away_is_no_neighbour() -> None:
+def test_a_move_to_a_cell_two_blocks_away_is_refused() -> None:
     game = _game()
     with pytest.raises(NotConfirmedError, match="is no neighbour of the agent's"):
         _body(game).move_to((7, 9))

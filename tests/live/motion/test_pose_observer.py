@@ -69,7 +69,7 @@ def test_a_look_gives_the_position_in_cells_and_the_block_looked_at(observed: Ob
     assert str(pose) == "(7.25, 8.00)"
 
 
-def test_within_one_frame_the_screen_is_read_once(observed: Observed) -> None:
+def test_the_screen_is_read_once_within_one_frame(observed: Observed) -> None:
     observed.observer.look()
     observed.pass_time(0.004)
     observed.observer.look()
@@ -106,7 +106,7 @@ def test_a_turned_view_or_another_height_is_a_problem(
 @pytest.mark.parametrize(
     "reading", [Reading(None, 0.0, 65.0), Reading((7.5, 64.0, 7.5), None, 65.0), Reading((7.5, 64.0, 7.5), 0.0, None)]
 )
-def test_a_reading_with_a_part_missing_is_waited_for_in_bounded_time(reading: Reading, observed: Observed) -> None:
+def test_an_incomplete_reading_is_an_error_after_5_s(reading: Reading, observed: Observed) -> None:
     observed.reading = reading
     began = observed.game.clock.now()
     with pytest.raises(UnreadableError, match="unreadable for 5 s: it shows no Facing line"):
@@ -114,7 +114,7 @@ def test_a_reading_with_a_part_missing_is_waited_for_in_bounded_time(reading: Re
     assert observed.game.clock.now() - began == pytest.approx(5.0, abs=FRAME_S)
 
 
-def test_a_step_between_two_looks_a_frame_apart_is_a_sighting(observed: Observed) -> None:
+def test_a_step_between_two_looks_a_frame_apart_is_counted(observed: Observed) -> None:
     observed.observer.look()
     since = observed.game.clock.now()
     at = observed.pass_time(FRAME_S)
@@ -125,7 +125,7 @@ def test_a_step_between_two_looks_a_frame_apart_is_a_sighting(observed: Observed
     assert observed.steps.seen == [(since, at)]
 
 
-def test_a_step_after_a_longer_time_or_an_unreadable_frame_is_no_sighting(observed: Observed) -> None:
+def test_a_step_after_a_longer_time_or_an_unreadable_frame_is_not_counted(observed: Observed) -> None:
     observed.observer.look()
     observed.pass_time(1.6 * FRAME_S)
     observed.walk_to(7.6)
@@ -138,7 +138,7 @@ def test_a_step_after_a_longer_time_or_an_unreadable_frame_is_no_sighting(observ
     assert observed.steps.seen == []
 
 
-def test_an_awaited_step_seen_by_the_first_look_is_a_sighting_since_a_frame_before(observed: Observed) -> None:
+def test_an_awaited_step_seen_by_the_first_look_counts_as_unseen_a_frame_before(observed: Observed) -> None:
     tick = observed.game.clock.now()
     observed.observer.wait_for_step(tick)
     observed.observer.look()
@@ -147,7 +147,7 @@ def test_an_awaited_step_seen_by_the_first_look_is_a_sighting_since_a_frame_befo
     assert observed.steps.seen == [pytest.approx((at - FRAME_S, at))]
 
 
-def test_an_awaited_step_seen_by_a_later_look_is_no_sighting(observed: Observed) -> None:
+def test_an_awaited_step_seen_only_by_a_later_look_is_not_counted(observed: Observed) -> None:
     observed.observer.note_awaited_step()
     observed.observer.wait_for_step(observed.game.clock.now())
     observed.pass_time(FRAME_S)
@@ -156,7 +156,7 @@ def test_an_awaited_step_seen_by_a_later_look_is_no_sighting(observed: Observed)
     assert observed.steps.seen == []
 
 
-def test_watching_ends_with_the_pose_that_was_waited_for_or_after_the_time(observed: Observed) -> None:
+def test_watch_ends_when_its_condition_holds_or_its_time_is_over(observed: Observed) -> None:
     began = observed.game.clock.now()
 
     def after(seconds: float) -> Callable[[object], bool]:
@@ -168,7 +168,7 @@ def test_watching_ends_with_the_pose_that_was_waited_for_or_after_the_time(obser
     assert observed.game.clock.now() - began == pytest.approx(1.1, abs=2 * FRAME_S)
 
 
-def test_the_position_alone_is_read_without_a_pose_and_may_be_missing(observed: Observed) -> None:
+def test_read_position_gives_the_position_or_none_if_unreadable(observed: Observed) -> None:
     assert observed.observer.read_position() == (7.0, 7.0)
     observed.reading = Reading(problem="covered")
     assert observed.observer.read_position() is None
@@ -188,7 +188,7 @@ def test_a_press_is_permitted_only_while_the_chat_is_closed(observed: Observed) 
     assert observed.game.presses == ["right button", PROFILE.keys.chat]
 
 
-def test_a_press_that_comes_too_late_after_the_look_looks_again(observed: Observed) -> None:
+def test_a_press_long_after_the_look_looks_again(observed: Observed) -> None:
     observed.observer.look()
     observed.observer.permit_press()
     observed.pass_time(FRESH_S + 0.01)
@@ -198,7 +198,7 @@ def test_a_press_that_comes_too_late_after_the_look_looks_again(observed: Observ
     assert observed.game.presses == ["right button"]
 
 
-def test_nothing_is_pressed_where_the_second_look_is_not_right_any_more(observed: Observed) -> None:
+def test_a_press_is_refused_if_the_second_look_shows_a_changed_pose(observed: Observed) -> None:
     observed.observer.look()
     observed.observer.permit_press(lambda pose: pose.position.forward < 7.5)
     observed.walk_to(8.5)
@@ -255,7 +255,7 @@ def test_unreadable_frames_are_waited_out_a_frame_at_a_time() -> None:
         (Reading((7.5, 64.0, 7.5), 0.0, None), "it shows no Facing line"),
     ],
 )
-def test_a_part_that_stays_missing_is_an_error_after_the_patience(missing: Reading, reason: str) -> None:
+def test_reading_a_pose_fails_after_5_s_if_a_part_stays_missing(missing: Reading, reason: str) -> None:
     game = FakeGame(Profile())
     began = game.clock.now()
     with pytest.raises(UnreadableError, match=f"unreadable for 5 s: {reason}"):
@@ -263,7 +263,7 @@ def test_a_part_that_stays_missing_is_an_error_after_the_patience(missing: Readi
     assert game.clock.now() - began == pytest.approx(5.0, abs=FRAME_S)
 
 
-def test_a_window_in_front_of_the_game_is_the_reason_at_once() -> None:
+def test_a_window_in_front_of_the_game_is_an_error_at_once() -> None:
     game = FakeGame(Profile())
     game.front_until = game.clock.now()
     with pytest.raises(NotInFrontError):
@@ -293,14 +293,14 @@ def test_ticks_are_known_to_a_few_milliseconds_after_some_steps(phase: float, se
     assert abs(off) < 0.008
 
 
-def test_few_sightings_give_no_tick_phase() -> None:
+def test_the_tick_phase_is_unknown_after_few_sightings() -> None:
     tick_phase = TickPhase()
     for seen in _sightings(int(ENOUGH) - 1, 0.01, 0):
         tick_phase.saw_step(seen, seen)
     assert not tick_phase.is_known
 
 
-def test_a_game_without_ticks_has_no_phase() -> None:
+def test_steps_at_random_times_give_no_tick_phase() -> None:
     tick_phase, rng = TickPhase(), random.Random(1)  # noqa: S311
     for _ in range(60):
         seen = rng.uniform(0, 100)

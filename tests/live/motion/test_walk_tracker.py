@@ -51,7 +51,7 @@ def test_a_known_end_is_right_even_if_the_walker_was_coasting_before(
 
 
 @pytest.mark.parametrize("late", [4, 8, 12])
-def test_a_release_that_comes_late_because_the_game_stalled_is_followed_too(late: int) -> None:
+def test_the_tracker_follows_a_release_delayed_by_a_stall(late: int) -> None:
     tracker = WalkTracker(AT_REST, Hold(1, 1, 5, PUSH))
     seen = [
         (tracker.coasting_at(GroundVector(3.0, 5.0 + round(position, 3))), is_released)
@@ -64,7 +64,7 @@ def test_a_release_that_comes_late_because_the_game_stalled_is_followed_too(late
 
 
 @pytest.mark.parametrize("inertia", [0.4, 0.546, 0.89])
-def test_other_ground_has_another_inertia(inertia: float) -> None:
+def test_the_end_is_known_on_ground_of_any_inertia(inertia: float) -> None:
     position, velocity, ends = 0.0, 0.0, []
     tracker = WalkTracker(AT_REST, Hold(1, 1, 5, 0.05), inertia)
     for tick in range(80):
@@ -77,14 +77,14 @@ def test_other_ground_has_another_inertia(inertia: float) -> None:
 
 
 @pytest.mark.parametrize(("inertia", "is_known"), [(0.546, False), (0.728, True)])
-def test_on_slippery_ground_a_position_may_lie_a_step_of_coasting_off_its_path(inertia: float, is_known: bool) -> None:
+def test_a_position_slightly_off_its_path_is_accepted_only_on_slippery_ground(inertia: float, is_known: bool) -> None:
     tracker = WalkTracker(AT_REST, Hold(1, 1, 5, PUSH), inertia)
     end = hold_path(5, PUSH, inertia)[-3]
     assert tracker.coasting_at(GroundVector(3.0, 5.0 + end)) is not None
     assert (tracker.coasting_at(GroundVector(3.0, 5.0 + displacement(5, inertia) + 0.003)) is not None) == is_known
 
 
-def test_along_the_other_axis_coasting_a_little_longer_than_known_is_its_end() -> None:
+def test_a_little_more_coasting_along_the_other_axis_is_taken_for_the_end() -> None:
     begin = CoastingState(GroundVector(3.0, 5.0), GroundVector(0.0, 0.0029))
     tracker = WalkTracker(begin, Hold(0, 1, 5, PUSH))
     state = tracker.coasting_at(GroundVector(3.0 + displacement(5), 5.014))
@@ -99,15 +99,15 @@ def test_a_position_on_no_path_gives_no_state() -> None:
     assert tracker.coasting_at(GroundVector(3.1, 5.944)) is None
 
 
-def test_a_walker_that_has_not_set_off_may_still_do_so() -> None:
+def test_a_walker_that_has_not_moved_has_no_end_until_the_hold_is_over() -> None:
     assert WalkTracker(AT_REST, Hold(1, 1, 5, PUSH)).coasting_at(GroundVector(3.0, 5.0)) is None
     assert WalkTracker(AT_REST).coasting_at(GroundVector(3.0, 5.0)) == AT_REST
 
 
 @pytest.mark.parametrize(("position", "ticks"), [(0.098, 1), (0.2495, 2), (0.4303, 3), (0.05, None), (0.944, None)])
-def test_during_a_hold_the_position_tells_how_many_ticks_felt_the_key(position: float, ticks: int | None) -> None:
+def test_the_position_during_a_hold_tells_how_many_ticks_felt_the_key(position: float, ticks: int | None) -> None:
     assert WalkTracker(AT_REST, Hold(1, 1, 5, PUSH)).ticks_held(GroundVector(3.0, 5.0 + position)) == ticks
 
 
-def test_without_a_hold_no_tick_has_felt_a_key() -> None:
+def test_ticks_held_is_none_without_a_hold() -> None:
     assert WalkTracker(AT_REST).ticks_held(GroundVector(3.0, 5.0)) is None

@@ -17,7 +17,7 @@ from mc_nested.live.profile.store import parse_profile
         ("[[0, 64, 0], [-200, 264, 200]]", "more than 32768 blocks"),
     ],
 )
-def test_a_reset_is_never_let_outside_the_marked_blocks(marked: str, complaint: str) -> None:
+def test_a_profile_with_unsuitable_marked_blocks_is_refused(marked: str, complaint: str) -> None:
     with pytest.raises(ProfileError, match=complaint):
         parse_profile(f"[arena]\norigin = [0, 64, 0]\nfacing = 'south'\nmarked = {marked}", "mine.toml")
 
@@ -50,13 +50,11 @@ def test_a_profiles_arena_has_15_to_32_cells_a_side(size: int, is_valid: bool) -
 
 
 @pytest.mark.parametrize(("needs", "gets"), [(5, 15), (15, 15), (16, 16), (32, 32)])
-def test_a_scenario_gets_an_arena_as_large_as_it_needs_and_never_a_smaller_one_than_the_papers(
-    needs: int, gets: int
-) -> None:
+def test_a_scenario_needs_an_arena_of_its_own_size_but_at_least_15_cells(needs: int, gets: int) -> None:
     assert size_for(Scenario("any", frozenset({(1, 1)}), (0, 0), 9, (Material("stone", 0.0, "stone"),), needs)) == gets
 
 
-def test_the_marked_blocks_hold_an_arena_as_large_as_it_is() -> None:
+def test_marked_blocks_must_hold_the_arenas_whole_size() -> None:
     arena = Arena.around((0, 64, 0), "south", size=20)
     assert arena.region == ((-19, 64, 0), (0, 65, 19))
     assert (arena.middle, arena.near_middle) == ((10, 10), (10, 0))
@@ -64,13 +62,13 @@ def test_the_marked_blocks_hold_an_arena_as_large_as_it_is() -> None:
         Arena(origin=(0, 64, 0), facing="south", size=21, marked=arena.marked)
 
 
-def test_a_region_has_its_lowest_corner_first_whichever_corners_are_marked() -> None:
+def test_a_region_starts_with_its_lowest_corner_whichever_corners_are_marked() -> None:
     arena = Arena(origin=(0, 64, 0), facing="south", marked=((2, 64, 20), (-14, 66, -3)))
     assert arena.region == ((-14, 64, -3), (2, 66, 20))
 
 
 @pytest.mark.parametrize(("height", "is_valid"), [(145, True), (146, False)])
-def test_no_more_blocks_are_marked_than_one_command_may_fill(height: int, is_valid: bool) -> None:
+def test_more_marked_blocks_than_one_fill_takes_are_refused(height: int, is_valid: bool) -> None:
     # 15 x 15 cells: 145 high are 32,625 blocks, 146 high are 32,850.
     assert FILL_LIMIT == 32_768
     if is_valid:
@@ -80,7 +78,7 @@ def test_no_more_blocks_are_marked_than_one_command_may_fill(height: int, is_val
         Arena.around((0, 64, 0), "north", height)
 
 
-def test_exactly_as_many_blocks_as_one_command_may_fill_are_fine() -> None:
+def test_exactly_as_many_marked_blocks_as_one_fill_takes_are_allowed() -> None:
     # 32 x 32 x 32 blocks.
     arena = Arena(origin=(0, 64, 0), facing="south", marked=((-31, 64, 0), (0, 95, 31)))
     assert arena.region == ((-31, 64, 0), (0, 95, 31))

@@ -19,7 +19,7 @@ CALIBRATED = CalibratedTable(date="2026-11-21", version="1.20.1", window=(854, 4
 CURRENT = Fingerprint("Minecraft 1.20.1 - Singleplayer", (854, 480), Scales(2, 2))
 
 
-def test_the_window_that_was_calibrated_on_fits() -> None:
+def test_an_unchanged_window_fits_its_profile() -> None:
     assert mismatch(CALIBRATED, CURRENT, "default") is None
 
 
@@ -49,7 +49,7 @@ def test_the_window_that_was_calibrated_on_fits() -> None:
         ),
     ],
 )
-def test_whatever_has_changed_is_named_with_the_step_to_repeat(current: Fingerprint, complaint: str) -> None:
+def test_a_mismatch_names_the_change_and_the_step_to_repeat(current: Fingerprint, complaint: str) -> None:
     assert mismatch(CALIBRATED, current, "laptop") == complaint
 
 
@@ -62,7 +62,7 @@ SIZES = st.tuples(st.integers(1280, 4000), st.integers(960, 3000))
 
 
 @given(SIZES, SIZES, st.integers(1, 4), st.integers(1, 4))
-def test_a_profile_fits_exactly_where_size_and_scale_are_the_same(
+def test_a_profile_fits_exactly_if_window_size_and_gui_scale_are_unchanged(
     then: tuple[int, int], now: tuple[int, int], scale: int, scale_now: int
 ) -> None:
     calibrated = CalibratedTable(date="2026-11-21", version="1.20.1", window=then, gui_scale=scale)
@@ -71,7 +71,7 @@ def test_a_profile_fits_exactly_where_size_and_scale_are_the_same(
 
 
 @pytest.mark.parametrize(("gui", "debug"), [(4, 4), (2, 3)])
-def test_a_pair_of_scales_that_no_such_window_can_have_is_refused(gui: int, debug: int) -> None:
+def test_a_profile_with_scales_impossible_in_its_window_is_refused(gui: int, debug: int) -> None:
     calibrated = CalibratedTable(date="2026-11-21", window=(854, 480), gui_scale=gui, debug_scale=debug)
     problem = mismatch(calibrated, CURRENT, "mine")
     assert problem == (
@@ -80,7 +80,7 @@ def test_a_pair_of_scales_that_no_such_window_can_have_is_refused(gui: int, debu
     )
 
 
-def test_a_debug_screen_of_another_scale_does_not_fit() -> None:
+def test_a_window_with_another_debug_scale_does_not_fit() -> None:
     problem = mismatch(CALIBRATED, Fingerprint("Minecraft 1.20.1", (854, 480), Scales(2, 1)), "mine")
     assert problem == (
         "profile mine was calibrated at GUI scale 2, and this is 2, debug screen 1: set Video Settings > GUI Scale to "
@@ -88,13 +88,13 @@ def test_a_debug_screen_of_another_scale_does_not_fit() -> None:
     )
 
 
-def test_a_profile_that_was_never_calibrated_plays_as_before() -> None:
+def test_a_profile_that_was_never_calibrated_fits_any_window() -> None:
     check_fit(None, Fingerprint("Minecraft 1.8.9", (640, 480), Scales(1, 1)), "default")
     with pytest.raises(ProfileError, match="was calibrated on Minecraft"):
         check_fit(CALIBRATED, Fingerprint("Minecraft 1.8.9", (640, 480), Scales(1, 1)), "default")
 
 
-def test_a_title_without_a_version_leaves_the_profiles() -> None:
+def test_the_version_comes_from_the_title_or_else_from_the_profile() -> None:
     known = GameVersion(version="1.16.5")
     assert game_in("Minecraft 1.20.1 - Singleplayer", known) == GameVersion(version="1.20.1")
     assert game_in("All the Mods 9", known) is known
@@ -112,7 +112,7 @@ def test_a_title_without_a_version_leaves_the_profiles() -> None:
         ("Minecraft* 1.20.1 - Einzelspieler", False, False),
     ],
 )
-def test_only_a_title_that_says_multiplayer_is_refused_and_only_where_that_is_not_allowed(
+def test_a_title_that_says_multiplayer_is_refused_unless_servers_are_allowed(
     title: str, is_server_allowed: bool, is_refused: bool
 ) -> None:
     if not is_refused:
@@ -123,7 +123,7 @@ def test_only_a_title_that_says_multiplayer_is_refused_and_only_where_that_is_no
 
 
 @pytest.mark.parametrize("state", ["Mehrspieler (LAN)", "Многопользовательская игра (LAN)", "Jeu en solitaire"])
-def test_a_state_in_an_unknown_word_is_refused_and_the_message_says_what_helps(state: str) -> None:
+def test_a_title_with_an_unknown_state_is_refused_with_the_remedy(state: str) -> None:
     with pytest.raises(DesktopError, match=r"isn't known: set the game's language to English .*--server-allowed"):
         check_single_player(f"Minecraft 1.20.1 - {state}", is_server_allowed=False)
     check_single_player(f"Minecraft 1.20.1 - {state}", is_server_allowed=True)

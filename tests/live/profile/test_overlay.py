@@ -1,4 +1,4 @@
-"""How a profile says that the debug screen is drawn."""
+"""The overlay that a profile describes: how the debug screen is drawn."""
 
 import dataclasses
 from pathlib import Path
@@ -30,7 +30,7 @@ GREY, WHITE = (224, 224, 224), (255, 255, 255)
         ),
     ],
 )
-def test_a_profile_that_says_the_scale_says_how_the_screen_is_drawn(screen: str, overlay: Overlay | None) -> None:
+def test_a_profile_with_a_debug_scale_gives_an_overlay(screen: str, overlay: Overlay | None) -> None:
     assert overlay_of(parse_profile(f"[screen]\n{screen}\n", "here")) == overlay
 
 

@@ -79,7 +79,7 @@ def test_saving_twice_changes_nothing(tmp_path: Path) -> None:
     assert path.read_text("utf-8") == first
 
 
-def test_what_a_profile_no_longer_says_leaves_the_file(tmp_path: Path) -> None:
+def test_saving_removes_keys_that_the_profile_no_longer_has(tmp_path: Path) -> None:
     path = tmp_path / "mine.toml"
     save_profile(
         Profile(arena=ARENA, screen=ScreenTable(debug_scale=2), points={"a": (0.1, 0.1), "b": (0.2, 0.2)}), path
@@ -89,7 +89,7 @@ def test_what_a_profile_no_longer_says_leaves_the_file(tmp_path: Path) -> None:
     assert "arena" not in tomlkit.parse(path.read_text("utf-8"))
 
 
-def test_a_file_that_is_no_toml_is_never_overwritten(tmp_path: Path) -> None:
+def test_saving_never_overwrites_a_file_that_is_not_toml(tmp_path: Path) -> None:
     path = tmp_path / "mine.toml"
     path.write_text("[window\n", "utf-8")
     with pytest.raises(ProfileError, match="not TOML"):
@@ -97,7 +97,7 @@ def test_a_file_that_is_no_toml_is_never_overwritten(tmp_path: Path) -> None:
     assert path.read_text("utf-8") == "[window\n"
 
 
-def test_a_profile_that_can_not_be_written_leaves_nothing_behind(tmp_path: Path) -> None:
+def test_a_profile_that_can_not_be_written_leaves_no_file_behind(tmp_path: Path) -> None:
     folder = tmp_path / "mine.toml"
     folder.mkdir()
     with pytest.raises(ProfileError, match="can't be"):
@@ -120,7 +120,7 @@ def test_a_write_that_breaks_off_leaves_the_old_profile(tmp_path: Path, monkeypa
     assert list(tmp_path.iterdir()) == [path]
 
 
-def test_the_profile_that_another_one_replaces_stays_beside_it(tmp_path: Path) -> None:
+def test_saving_keeps_the_replaced_profile_in_a_file_beside_it(tmp_path: Path) -> None:
     path = tmp_path / "mine.toml"
     save_profile(Profile(), path)
     assert not earlier_path(path).exists()
@@ -130,14 +130,14 @@ def test_the_profile_that_another_one_replaces_stays_beside_it(tmp_path: Path) -
     assert earlier_path(path).read_bytes() == before
 
 
-def test_saving_the_same_again_keeps_the_earlier_one(tmp_path: Path) -> None:
+def test_saving_an_unchanged_profile_keeps_the_earlier_one(tmp_path: Path) -> None:
     path = tmp_path / "mine.toml"
     for profile in (Profile(), Profile(arena=ARENA), Profile(arena=ARENA)):
         save_profile(profile, path)
     assert parse_profile(earlier_path(path).read_text("utf-8"), "earlier") == Profile()
 
 
-def test_a_file_that_was_no_profile_takes_no_earlier_ones_place(tmp_path: Path) -> None:
+def test_saving_over_a_broken_file_keeps_the_earlier_profile(tmp_path: Path) -> None:
     path = tmp_path / "mine.toml"
     save_profile(Profile(), path)
     save_profile(Profile(arena=ARENA), path)
@@ -146,7 +146,7 @@ def test_a_file_that_was_no_profile_takes_no_earlier_ones_place(tmp_path: Path) 
     assert parse_profile(earlier_path(path).read_text("utf-8"), "earlier") == Profile()
 
 
-def test_undone_the_earlier_profile_is_back_and_undone_again_the_later_one(tmp_path: Path) -> None:
+def test_undo_restores_the_earlier_profile_and_a_second_undo_the_later_one(tmp_path: Path) -> None:
     path = tmp_path / "mine.toml"
     save_profile(Profile(), path)
     save_profile(Profile(arena=ARENA), path)
@@ -156,7 +156,7 @@ def test_undone_the_earlier_profile_is_back_and_undone_again_the_later_one(tmp_p
     assert load_profile(path) == Profile(arena=ARENA)
 
 
-def test_undoing_brings_the_last_good_profile_back_whatever_became_of_the_file(tmp_path: Path) -> None:
+def test_undo_restores_the_earlier_profile_over_a_broken_or_missing_file(tmp_path: Path) -> None:
     path = tmp_path / "mine.toml"
     for damage in (lambda: path.write_text("[window\n", "utf-8"), path.unlink):
         path.unlink(missing_ok=True)
@@ -168,7 +168,7 @@ def test_undoing_brings_the_last_good_profile_back_whatever_became_of_the_file(t
 
 
 @pytest.mark.parametrize("broken", [b"[walking]\nspeed = 4.3\n", b"[calibrated]\nformat = 99\n", b"# caf\xe9\n"])
-def test_what_is_undone_and_can_not_be_read_is_kept_and_overwrites_nothing(tmp_path: Path, broken: bytes) -> None:
+def test_undo_keeps_an_unreadable_profile_under_a_new_name(tmp_path: Path, broken: bytes) -> None:
     path = tmp_path / "mine.toml"
     save_profile(Profile(), path)
     save_profile(Profile(arena=ARENA), path)
@@ -181,7 +181,7 @@ def test_what_is_undone_and_can_not_be_read_is_kept_and_overwrites_nothing(tmp_p
     assert earlier_path(path).read_bytes() == path.read_bytes()
 
 
-def test_an_undoing_that_finds_no_room_loses_neither_profile(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_undo_on_a_full_disk_loses_neither_profile(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     path = tmp_path / "mine.toml"
     save_profile(Profile(), path)
     save_profile(Profile(arena=ARENA), path)
@@ -196,7 +196,7 @@ def test_an_undoing_that_finds_no_room_loses_neither_profile(tmp_path: Path, mon
     assert (path.read_bytes(), earlier_path(path).read_bytes()) == (one, other)
 
 
-def test_without_a_good_earlier_profile_nothing_is_undone(tmp_path: Path) -> None:
+def test_undo_changes_nothing_without_a_readable_earlier_profile(tmp_path: Path) -> None:
     path = tmp_path / "mine.toml"
     save_profile(Profile(arena=ARENA), path)
     with pytest.raises(ProfileError, match="no earlier profile"):
@@ -208,7 +208,7 @@ def test_without_a_good_earlier_profile_nothing_is_undone(tmp_path: Path) -> Non
 
 
 @pytest.mark.parametrize("written", [0, 2])
-def test_profile_of_another_format_is_one_line_that_says_so(written: int) -> None:
+def test_a_profile_of_another_format_is_an_error_that_says_so(written: int) -> None:
     text = f"[calibrated]\nformat = {written}\ndate = '2027-01-01'\n[walking]\nspeed = 4.3\n"
     with pytest.raises(ProfileError) as caught:
         parse_profile(text, "mine.toml")
@@ -236,7 +236,7 @@ def test_a_missing_profile_is_reported_with_the_command_that_makes_it(tmp_path: 
         load_profile(tmp_path / "none.toml")
 
 
-def test_a_name_means_a_file_in_the_profile_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_profile_name_is_looked_up_in_the_profile_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(platformdirs, "user_config_path", lambda *_args, **_kwargs: tmp_path)
     save_profile(Profile(game=GameVersion(version="1.16.5")), profile_folder() / "laptop.toml")
     assert load_profile("laptop").game.version == "1.16.5"

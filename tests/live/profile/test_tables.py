@@ -39,7 +39,7 @@ from mc_nested.live.profile.tables import BlocksTable, GameVersion, Profile, Wal
         ("[window", "not TOML"),
     ],
 )
-def test_a_mistake_is_one_line_that_names_the_key(text: str, complaint: str) -> None:
+def test_a_mistake_in_a_profile_is_a_one_line_error_that_names_the_key(text: str, complaint: str) -> None:
     with pytest.raises(ProfileError) as caught:
         parse_profile(text, "mine.toml")
     assert str(caught.value).startswith(f"mine.toml: {complaint}")
@@ -55,7 +55,7 @@ def test_a_mistake_is_one_line_that_names_the_key(text: str, complaint: str) -> 
         ("How to play Minecraft 1.20 - Browser", False),
     ],
 )
-def test_the_default_title_is_the_games_and_no_other_windows(title: str, is_the_game: bool) -> None:
+def test_the_default_title_matches_the_game_and_no_other_window(title: str, is_the_game: bool) -> None:
     assert WindowTable().matches(title) is is_the_game
 
 
@@ -67,7 +67,7 @@ def test_each_version_has_its_dialect_of_commands(version: str, dialect: str) ->
     assert GameVersion(version=version).dialect == dialect
 
 
-def test_planks_have_their_old_name_in_an_old_game() -> None:
+def test_planks_have_their_old_name_before_1_13_and_a_profile_may_rename_blocks() -> None:
     assert Profile(game=GameVersion(version="1.12.2")).shown_id("oak_planks") == "minecraft:planks"
     assert Profile(game=GameVersion(version="1.13")).shown_id("oak_planks") == "minecraft:oak_planks"
     assert Profile(blocks=BlocksTable(shown_prefix="", names={"stone": "rock"})).shown_id("stone") == "rock"
@@ -81,7 +81,7 @@ def test_a_missing_font_or_arena_says_what_to_do() -> None:
 
 
 @given(st.lists(st.floats(0.01, 0.5), min_size=4, max_size=20))
-def test_any_growing_walk_response_is_saved_and_read_back(steps: list[float]) -> None:
+def test_any_growing_walk_response_is_read_back_from_toml(steps: list[float]) -> None:
     covered = tuple(sum(steps[: ticks + 1]) for ticks in range(len(steps)))
     profile = Profile(walk=WalkTable(covered=covered))
     assert parse_profile(tomlkit.dumps({"walk": {"covered": list(covered)}}), "mine.toml") == profile

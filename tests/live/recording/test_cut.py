@@ -1,4 +1,4 @@
-"""What is taken out of a recording that others will read, and what has to stay as it is."""
+"""Cutting a recording that others will read removes names and paths, and leaves all else as it is."""
 
 from pathlib import Path
 from typing import Any
@@ -37,7 +37,7 @@ def cleaned(folder: Path, *calls: list[Any]) -> list[list[Any]]:
     ],
     ids=lambda call: str(call[:2]),
 )
-def test_names_and_paths_are_taken_out_of_what_is_said(
+def test_cutting_removes_names_and_paths_from_errors_and_notes(
     call: list[Any], without_names: list[Any], tmp_path: Path
 ) -> None:
     (found,) = cleaned(tmp_path, call)
@@ -45,7 +45,7 @@ def test_names_and_paths_are_taken_out_of_what_is_said(
     assert found == expected
 
 
-def test_of_a_profiles_paths_others_see_the_last_part_alone_and_the_rest_stays(tmp_path: Path) -> None:
+def test_cutting_keeps_only_the_last_part_of_a_profiles_paths(tmp_path: Path) -> None:
     profile = Profile(
         screen=ScreenTable(font="/mnt/games of ann b/1.20.1/1.20.1.jar", debug_scale=2),
         world=WorldTable(folder=r"D:\Diary\saves\Arena", template="~/copies/of mine/Arena", name="Arena"),
@@ -63,7 +63,7 @@ def test_of_a_profiles_paths_others_see_the_last_part_alone_and_the_rest_stays(t
     assert facts_of(tmp_path / "whole.mcap")["profile"] == document
 
 
-def test_a_profile_that_is_none_is_one_line_and_no_part(tmp_path: Path) -> None:
+def test_cutting_a_recording_with_a_broken_profile_is_refused_and_writes_no_file(tmp_path: Path) -> None:
     writer = PartWriter(tmp_path / "whole.mcap", {"format": str(FORMAT), "profile": "[screen\n"})
     writer.write([(1, ["now", 1.0])], [], [])
     writer.close()
@@ -89,5 +89,5 @@ def test_a_profile_that_is_none_is_one_line_and_no_part(tmp_path: Path) -> None:
     ],
     ids=lambda call: str(call[:2]),
 )
-def test_keys_pixels_and_readings_stay_as_they_are(call: list[Any], tmp_path: Path) -> None:
+def test_cutting_leaves_keys_commands_pixels_and_readings_unchanged(call: list[Any], tmp_path: Path) -> None:
     assert cleaned(tmp_path, call) == [call]

@@ -60,13 +60,13 @@ def killed(folder: Path, after_s: float) -> float:
     return killed_at - [each for each in read if isinstance(each, TimedCall)][-1].at / 1e9
 
 
-def test_a_kill_loses_less_than_the_last_second(tmp_path: Path) -> None:
+def test_a_killed_recorder_loses_less_than_the_last_second(tmp_path: Path) -> None:
     for trial, after_s in enumerate((0.6, 0.75, 0.9)):
         assert killed(tmp_path / str(trial), after_s) < 1.0
 
 
 @pytest.mark.realtime
-def test_two_hundred_kills_lose_less_than_a_second_each(tmp_path: Path) -> None:
+def test_two_hundred_killed_recorders_lose_less_than_a_second_each(tmp_path: Path) -> None:
     waits = np.random.default_rng(7).uniform(0.6, 1.1, 200).tolist()
     folders = [tmp_path / str(trial) for trial in range(len(waits))]
     with ThreadPoolExecutor(2) as two_at_once:
@@ -86,7 +86,7 @@ def test_a_full_disk_ends_the_recording_and_not_the_run(tmp_path: Path, monkeypa
     assert said == [f"the recording ends here, the run goes on: {tmp_path / 'full'}: No space left on device"]
 
 
-def test_only_the_last_part_of_a_long_run_is_kept(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_recorder_keeps_only_the_last_files_of_a_long_run(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(recorder, "PART_S", 0.0)
     monkeypatch.setattr(recorder, "WRITE_EVERY_S", 0.01)
     with Recorder(tmp_path / "long", FACTS, (854, 480), print, kept_bytes=6000) as recording:
@@ -101,7 +101,7 @@ def test_only_the_last_part_of_a_long_run_is_kept(tmp_path: Path, monkeypatch: p
     assert overview_of(tmp_path / "long").damage == ()
 
 
-def test_a_release_by_another_thread_is_recorded_as_such(tmp_path: Path) -> None:
+def test_a_release_by_another_thread_is_recorded_as_elsewhere(tmp_path: Path) -> None:
     import threading
 
     client = VirtualClient(seed=1)
@@ -115,7 +115,7 @@ def test_a_release_by_another_thread_is_recorded_as_such(tmp_path: Path) -> None
     assert calls == [["key", "press", "w"], ["elsewhere", "key", "release", "w"]]
 
 
-def test_the_chat_is_on_no_picture() -> None:
+def test_recorded_pictures_have_the_chat_blanked() -> None:
     client = VirtualClient(seed=1, size=(1280, 720))
     encoder = CallEncoder((1280, 720))
     _, (picture,) = encoder.encode(["grab", None, client.display.grab()])
@@ -126,7 +126,7 @@ def test_the_chat_is_on_no_picture() -> None:
         assert (part == BLANK).all()
 
 
-def test_the_clipboards_text_is_never_set_down(tmp_path: Path) -> None:
+def test_the_clipboards_text_is_never_recorded(tmp_path: Path) -> None:
     client = VirtualClient(seed=1)
     with Recorder(tmp_path / "clip", FACTS, (854, 480), print) as recording:
         devices = recording.devices(client.devices)

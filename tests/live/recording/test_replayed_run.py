@@ -39,20 +39,20 @@ def written(path: Path, calls: list[TimedCall], facts: dict[str, str], pictures:
     return path
 
 
-def test_a_replay_reads_and_decides_as_recorded(recording: Path) -> None:
+def test_a_replay_of_an_unchanged_recording_differs_in_nothing(recording: Path) -> None:
     seen = replay(recording, FONT)
     assert (seen.actions, seen.followed, seen.differences, seen.damaged) == (60, 60, [], [])
     assert seen.read_anew > 5 * seen.actions
 
 
-def test_every_reading_of_a_block_comes_with_pixels_that_suffice(recording: Path) -> None:
+def test_every_reading_with_a_target_block_is_recorded_with_its_text_pixels(recording: Path) -> None:
     looks = [each.call for each in calls_of(recording) if each.call[:2] == ["screen", "read"]]
     with_target = [call for call in looks if call[3].get("target")]
     assert len(with_target) > 100
     assert all("text" in call[4] for call in with_target)
 
 
-def test_a_glyph_that_is_another_one_is_seen_in_the_readings(recording: Path) -> None:
+def test_a_replay_with_a_changed_glyph_reports_differing_readings(recording: Path) -> None:
     atlas = drawn_atlas().copy()
     cell = atlas.shape[0] // 16
     seven = (slice(3 * cell, 4 * cell), slice(7 * cell, 8 * cell))
@@ -64,7 +64,9 @@ def test_a_glyph_that_is_another_one_is_seen_in_the_readings(recording: Path) ->
     assert seen.followed == 60  # play is followed on as it was read then
 
 
-def test_a_key_that_was_held_for_longer_is_a_decision_that_differs(recording: Path, tmp_path: Path) -> None:
+def test_a_replay_reports_a_recorded_press_of_another_key_as_a_differing_decision(
+    recording: Path, tmp_path: Path
+) -> None:
     calls = calls_of(recording)
     second = [at for at, each in enumerate(calls) if each.call[:2] == ["note", "resets"]][1]
     changed = next(at for at, each in enumerate(calls[:second]) if at > 300 and each.call[:3] == ["key", "press", "a"])
@@ -77,7 +79,7 @@ def test_a_key_that_was_held_for_longer_is_a_decision_that_differs(recording: Pa
     assert 35 <= seen.followed < 60
 
 
-def test_a_part_is_cut_from_a_reset_on_and_replays_alone(recording: Path, tmp_path: Path) -> None:
+def test_a_cut_part_begins_at_a_reset_and_can_be_replayed_by_itself(recording: Path, tmp_path: Path) -> None:
     calls = calls_of(recording)
     resets = [each.at for each in calls if each.call[:2] == ["note", "resets"]]
     out = tmp_path / "part.mcap"
@@ -87,7 +89,7 @@ def test_a_part_is_cut_from_a_reset_on_and_replays_alone(recording: Path, tmp_pa
     assert (seen.actions, seen.followed, seen.differences) == (35, 35, [])
 
 
-def test_names_are_taken_out_of_what_is_cut(recording: Path, tmp_path: Path) -> None:
+def test_cutting_removes_names_from_calls_and_title(recording: Path, tmp_path: Path) -> None:
     out = tmp_path / "part.mcap"
     calls = calls_of(recording)
     cut(recording, out, 0, calls[-1].at, lambda text: text.replace("Singleplayer", "<world>"))
@@ -95,13 +97,13 @@ def test_names_are_taken_out_of_what_is_cut(recording: Path, tmp_path: Path) -> 
     assert facts_of(out)["title"].endswith("<world>")
 
 
-def test_nothing_recorded_in_that_time_is_an_error_that_leaves_no_file(recording: Path, tmp_path: Path) -> None:
+def test_cutting_a_time_without_calls_is_an_error_and_leaves_no_file(recording: Path, tmp_path: Path) -> None:
     with pytest.raises(RecordingError, match="nothing was recorded then"):
         cut(recording, tmp_path / "none.mcap", 1, 2)
     assert list(tmp_path.iterdir()) == []
 
 
-def test_the_end_alone_is_kept_by_trimming(recording: Path, tmp_path: Path) -> None:
+def test_trimming_leaves_one_file_with_the_end_of_the_recording(recording: Path, tmp_path: Path) -> None:
     folder = tmp_path / "play"
     shutil.copytree(recording, folder)
     before = overview_of(folder)
@@ -115,7 +117,7 @@ def test_the_end_alone_is_kept_by_trimming(recording: Path, tmp_path: Path) -> N
     assert [path.name for path in folder.iterdir()] == ["00001.mcap"]
 
 
-def test_a_replay_takes_the_same_materials_in_hand(tmp_path: Path) -> None:
+def test_a_replay_follows_a_run_with_two_materials(tmp_path: Path) -> None:
     record_play(tmp_path / "flag", 12, scenario_name="flag")
     taken = [call.call[2]["material"] for call in calls_of(tmp_path / "flag") if call.call[:2] == ["note", "acts"]]
     assert set(taken) == {0, 1}
@@ -123,7 +125,7 @@ def test_a_replay_takes_the_same_materials_in_hand(tmp_path: Path) -> None:
     assert (seen.actions, seen.followed, seen.differences) == (12, 12, [])
 
 
-def test_an_episode_with_mishaps_is_followed_too(tmp_path: Path) -> None:
+def test_a_replay_follows_an_episode_with_mishaps(tmp_path: Path) -> None:
     client = VirtualClient(seed=2)
     client.mishaps.plan("pause", 1.5)
     failed = record_play(tmp_path / "play", 12, client)
@@ -132,7 +134,7 @@ def test_an_episode_with_mishaps_is_followed_too(tmp_path: Path) -> None:
     assert (seen.differences, len(failed)) == ([], seen.actions - 12)
 
 
-def test_a_recording_that_breaks_off_is_read_up_to_there(recording: Path, tmp_path: Path) -> None:
+def test_a_recording_that_breaks_off_is_read_up_to_the_break(recording: Path, tmp_path: Path) -> None:
     calls = calls_of(recording)
     file = tmp_path / "whole.mcap"
     writer = PartWriter(file, facts_of(recording))
@@ -150,7 +152,7 @@ def test_a_recording_that_breaks_off_is_read_up_to_there(recording: Path, tmp_pa
         assert seen.damage == (f"{early.name}: it ends early, as after a crash",)
 
 
-def test_a_damaged_byte_is_found_by_its_checksum(recording: Path, tmp_path: Path) -> None:
+def test_a_damaged_byte_in_a_recording_is_reported(recording: Path, tmp_path: Path) -> None:
     (part,) = recording.iterdir()
     content = bytearray(part.read_bytes())
     content[len(content) // 2] ^= 0xFF
@@ -161,7 +163,7 @@ def test_a_damaged_byte_is_found_by_its_checksum(recording: Path, tmp_path: Path
 
 
 @pytest.mark.parametrize("content", [b"", b"no recording at all", b"\x89MCAP0\r\n", b"\x89MCAP0\r\n" + b"\xff" * 40])
-def test_a_foreign_file_is_one_line(tmp_path: Path, content: bytes) -> None:
+def test_replaying_a_foreign_file_is_a_one_line_error(tmp_path: Path, content: bytes) -> None:
     file = tmp_path / "foreign.mcap"
     file.write_bytes(content)
     with pytest.raises(RecordingError, match="is no recording of mc-nested"):
@@ -178,6 +180,6 @@ def test_recording_of_another_format_is_refused_in_one_line(facts: dict[str, str
             refused()
 
 
-def test_a_replay_without_a_font_asks_for_the_profiles(recording: Path) -> None:
+def test_a_replay_without_a_font_is_refused(recording: Path) -> None:
     with pytest.raises(ProfileError, match=r"screen\.font is missing"):
         replay(recording)

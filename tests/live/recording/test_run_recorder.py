@@ -1,4 +1,4 @@
-"""What a recording says of itself: the window and the monitors, as far as they are known."""
+"""The facts that a recording states of itself: the window and the monitors, as far as they are known."""
 
 import dataclasses
 from pathlib import Path

@@ -32,7 +32,7 @@ def client_looking_at_the_floor(version: str = "1.20.1", size: tuple[int, int] =
 
 @pytest.mark.parametrize("size", [(854, 480), (1280, 720), (1920, 1080)])
 @pytest.mark.parametrize("version", ["1.12.2", "1.15.2", "1.20.1", "1.21.9"])
-def test_the_ink_alone_gives_the_reading_again(version: str, size: tuple[int, int]) -> None:
+def test_text_pixels_alone_give_the_same_reading(version: str, size: tuple[int, int]) -> None:
     client = client_looking_at_the_floor(version=version, size=size)
     screen, reading = look_at(client)
     assert reading.target is not None
@@ -56,7 +56,7 @@ def test_text_pixels_take_a_few_hundred_bytes_and_come_back_from_json() -> None:
     assert TextPixels.from_json(json.loads(written)) == text
 
 
-def test_ink_that_lacks_a_line_does_not_suffice() -> None:
+def test_text_pixels_without_one_of_the_lines_give_another_reading() -> None:
     screen, reading = look_at(client_looking_at_the_floor())
     assert screen.last_look is not None
     text = text_pixels_of(screen.last_look)
@@ -87,7 +87,7 @@ class Still:
 
 
 @pytest.mark.parametrize("layout", LAYOUTS)
-def test_the_ink_of_every_layout_gives_the_reading_again(layout: Layout) -> None:
+def test_text_pixels_of_every_layout_give_the_same_reading(layout: Layout) -> None:
     """The stand-in's text is white: what is beside a line's box must not be."""
     name = "oak_planks" if layout == "standin" else "minecraft:oak_planks"
     target = Target((-9, 63, 12_345), name)

@@ -1,4 +1,4 @@
-"""Where the chat lies on a picture, by hand and against the virtual client's own chat.
+"""The chat's region on a picture, by hand and against the virtual client's own chat.
 
 The last frames before a failure, over a display of the test's own; test_chat_region.py has what is blanked.
 
@@ -40,13 +40,13 @@ from sim.client.settings import gui_scale
 from tests.sim.client.playing import FONT, tap
 
 
-def test_at_854_x_480_and_scale_2_the_chat_is_the_lower_left_and_the_lowest_line() -> None:
+def test_the_chat_covers_the_lower_left_and_the_typed_line_at_854_x_480() -> None:
     # 228 to 38 dots above the lower edge, 332 wide; all of the 38 below, where lines are typed.
     assert chat_regions((854, 480), 2) == (Region(0, 24, 664, 380), Region(0, 404, 854, 76))
 
 
 @pytest.mark.parametrize(("size", "scale"), [((854, 480), 2), ((854, 480), None), ((1280, 720), 1), ((200, 50), 3)])
-def test_the_share_that_is_blanked_is_what_is_blanked(size: tuple[int, int], scale: int | None) -> None:
+def test_blanked_share_agrees_with_the_blanked_pixels(size: tuple[int, int], scale: int | None) -> None:
     blank = (without_chat(np.zeros((*size[::-1], 3), np.uint8), scale) == BLANK).all(axis=2)
     assert blanked_share(size, scale) == blank.mean()
 
@@ -56,7 +56,7 @@ def test_at_854_x_480_and_scale_2_four_fifths_are_blanked() -> None:
 
 
 @given(st.integers(320, 2000), st.integers(240, 1300))
-def test_without_a_scale_all_is_blanked_that_is_at_any_scale(width: int, height: int) -> None:
+def test_an_unknown_gui_scale_blanks_the_chat_of_every_scale(width: int, height: int) -> None:
     frame = np.zeros((height, width, 3), np.uint8)
     blank = without_chat(frame, None) == BLANK
     for scale in range(1, min(width // 320, height // 240) + 1):
@@ -89,7 +89,7 @@ def test_no_chat_message_is_left_on_the_picture(version: str, size: tuple[int, i
 
 
 @pytest.mark.parametrize("version", ["1.12.2", "26.1"])
-def test_nothing_that_is_being_typed_is_left_on_the_picture(version: str) -> None:
+def test_no_typed_letter_is_left_on_the_picture(version: str) -> None:
     def seen(words: str) -> Frame:
         client = VirtualClient(version=version, capture_latency_s=(0.0, 0.0))
         tap(client, "t")
@@ -129,7 +129,7 @@ def test_no_pixel_of_messages_or_of_the_typed_line_is_left_in_any_window(
     assert np.array_equal(without_chat(one, known), without_chat(other, known))
 
 
-def test_the_rest_of_the_picture_and_what_is_opaque_stay_and_the_frame_itself_is_left_alone() -> None:
+def test_without_chat_changes_only_the_chat_on_a_copy_and_spares_opaque_regions() -> None:
     frame = np.random.default_rng(0).integers(100, 256, (480, 427, 3), np.uint8)
     before = frame.copy()
     blanked = without_chat(frame, 1, [Region(100, 350, 50, 20), Region(-5, 470, 10, 30)])
@@ -187,14 +187,14 @@ def test_another_window_is_never_pictured(tmp_path: Path) -> None:
     assert (last.save(), display.grabs) == ([], 0)
 
 
-def test_without_a_folder_nothing_is_kept() -> None:
+def test_without_a_folder_no_frame_is_taken_or_saved() -> None:
     display = GreyDisplay()
     last = LastFrames(display, None, lambda: 1)
     last.take()
     assert (last.save(), display.grabs) == ([], 0)
 
 
-def test_a_picture_that_the_disk_refuses_is_not_named(tmp_path: Path) -> None:
+def test_save_leaves_out_a_picture_that_can_not_be_written(tmp_path: Path) -> None:
     (tmp_path / "last-1.png").mkdir()
     display = GreyDisplay()
     last = LastFrames(display, tmp_path, lambda: 1)
@@ -225,7 +225,7 @@ def test_a_line_being_typed_can_not_be_read_on_the_last_frames(
 
 
 @pytest.mark.parametrize("size", [(854, 480), (1920, 1080)])
-def test_where_no_debug_screen_says_the_scale_what_is_typed_can_not_be_read_either(
+def test_a_typed_line_can_not_be_read_on_the_last_frames_at_an_unknown_scale(
     size: tuple[int, int], tmp_path: Path
 ) -> None:
     def saved(words: str) -> Frame:
@@ -268,7 +268,7 @@ RESET = (
 
 
 @pytest.mark.parametrize("version", ["1.12.2", "1.13.2", "1.14.4", "1.15.2", "1.16.5", "1.20.1"])
-def test_after_each_command_of_two_resets_the_debug_screen_is_read_in_the_smallest_window(version: str) -> None:
+def test_the_smallest_window_is_read_after_each_command_of_two_resets(version: str) -> None:
     client = VirtualClient(version=version, size=(854, 480), scale=2, pitch=65.0)
     connection = connection_to(client)
     chat = Chat(Profile(game=GameVersion(version=version)), connection)
@@ -300,13 +300,13 @@ def cleared(version: str, size: tuple[int, int], scale: int) -> int:
     return count
 
 
-def test_a_reset_of_five_lines_is_cleared_once_where_the_fifth_covers_the_block_and_nowhere_else() -> None:
+def test_a_reset_clears_the_chat_once_only_where_its_fifth_line_covers_the_block() -> None:
     assert cleared("1.13.2", (854, 480), 2) == 1
     assert cleared("1.13.2", (1920, 1080), 4) == 0
     assert [cleared(version, (854, 480), 2) for version in ("1.12.2", "1.20.1", "1.21.9", "26.4")] == [0, 0, 0, 0]
 
 
-def test_lines_that_have_faded_do_not_count() -> None:
+def test_chat_lines_that_have_faded_are_not_counted() -> None:
     lines = ChatLines()
     lines.note("/tp @s 0 0 0", 1.0)
     lines.note("/fill", 2.0)
@@ -316,6 +316,6 @@ def test_lines_that_have_faded_do_not_count() -> None:
     assert lines.after("/fill", 3.0) == 0
 
 
-def test_no_version_without_the_key_or_with_its_text_on_top_is_cleared() -> None:
+def test_chat_room_is_limited_only_from_1_9_to_1_21_8() -> None:
     assert [chat_room(version) for version in ("1.8.9", "1.9", "1.13", "1.16", "1.21.9")] == [None, 6, 4, 8, None]
     assert chat_room("1.13.2", 270) == 7

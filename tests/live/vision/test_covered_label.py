@@ -45,7 +45,7 @@ def found(frame: Frame, label: str = LABEL) -> tuple[int, bool] | None:
 
 @pytest.mark.parametrize("colour", [WHITE, GREY])
 @pytest.mark.parametrize("grounds", [(), (80,), (48,), (80, 80)])
-def test_a_label_is_known_below_any_ground_and_whether_it_can_be_pressed(
+def test_a_label_is_found_under_any_ground_with_its_enabled_or_greyed_colour(
     grounds: tuple[int, ...], colour: Colour
 ) -> None:
     frame = button(colour=colour)
@@ -64,7 +64,7 @@ def test_a_label_is_found_under_letters_and_across_two_grounds() -> None:
 
 
 @pytest.mark.parametrize("shown", ["Disconnect", "Back to Game", "Respawn", "Save and Exit to Titles", ""])
-def test_another_label_is_not_taken_for_the_one_looked_for(shown: str) -> None:
+def test_save_and_quit_is_not_found_on_a_covered_button_with_another_label(shown: str) -> None:
     frame = button(shown)
     below(frame, 80, right=214)
     write(frame, "[F3+3] Ping hidden", LEFT + 10)
@@ -72,7 +72,7 @@ def test_another_label_is_not_taken_for_the_one_looked_for(shown: str) -> None:
 
 
 @pytest.mark.parametrize("label", ["Disconnect", "Respawn", "Back to Game"])
-def test_a_label_is_not_taken_for_another_one(label: str) -> None:
+def test_no_other_label_is_found_on_a_covered_save_and_quit_button(label: str) -> None:
     frame = button()
     below(frame, 80, right=214)
     write(frame, "Display: 854x480 (AMD)", LEFT + 60)
@@ -81,20 +81,20 @@ def test_a_label_is_not_taken_for_another_one(label: str) -> None:
 
 @pytest.mark.parametrize("label", ["Disconnect", "Respawn", "Back to Game"])
 @pytest.mark.parametrize("shown", ["Game Paused", LABEL])
-def test_no_label_is_seen_on_a_ground_as_bright_as_letters(shown: str, label: str) -> None:
+def test_no_label_is_found_on_a_ground_as_bright_as_letters(shown: str, label: str) -> None:
     frame = np.full((480, 854, 3), 240, np.uint8)
     MenuPainter(frame, SCALE, FONT, np.random.default_rng(0)).text(shown, 213 - len(FONT.columns(shown)) // 2, TOP)
     assert found(frame, label) is None
 
 
-def test_a_label_that_letters_hide_almost_wholly_is_not_found() -> None:
+def test_a_label_almost_wholly_hidden_by_letters_is_not_found() -> None:
     frame = button()
     frame[SCALE * TOP : SCALE * (TOP + 20), SCALE * 150 : SCALE * 270] = 224
     assert found(frame) is None
 
 
 @pytest.mark.parametrize("shape", [(0, 0), (10, 10), (7, 900), (300, 60)])
-def test_a_frame_too_small_for_a_label_has_none(shape: tuple[int, int]) -> None:
+def test_no_label_is_found_in_a_frame_too_small_for_it(shape: tuple[int, int]) -> None:
     assert found(np.full((*shape, 3), 156, np.uint8)) is None
 
 
@@ -117,7 +117,7 @@ def picture(words: str, *, covered: int = 0, ground: int = 90, row: int = WORDS_
 
 @pytest.mark.parametrize("ground", [0, 63, 90, 255])
 @pytest.mark.parametrize("words", ["Game Paused", "Game paused"])
-def test_the_words_are_seen_on_any_ground_also_where_text_covers_a_part(words: str, ground: int) -> None:
+def test_game_paused_is_recognised_on_any_ground_even_partly_covered(words: str, ground: int) -> None:
     assert shows_pause(picture(words, ground=ground), SCALE, FONT)
     if ground != 63:
         covered = picture(words, covered=18, ground=ground)
@@ -127,25 +127,25 @@ def test_the_words_are_seen_on_any_ground_also_where_text_covers_a_part(words: s
 
 @pytest.mark.parametrize("words", ["Spiel pausiert", "Jeu en pause", "Juego en pausa", "Gioco in pausa", "Pauza"])
 @pytest.mark.parametrize("ground", [0, 90, 255])
-def test_words_of_other_languages_there_are_a_pause_too(words: str, ground: int) -> None:
+def test_a_pause_is_recognised_in_other_languages(words: str, ground: int) -> None:
     assert shows_pause(picture(words, ground=ground), SCALE, FONT)
 
 
 @pytest.mark.parametrize("row", [-7, -1, 3, 4])
-def test_a_text_in_other_rows_as_a_bosss_name_or_the_chat_is_no_pause(row: int) -> None:
+def test_a_text_in_other_rows_such_as_a_bosss_name_is_not_taken_for_a_pause(row: int) -> None:
     assert not shows_pause(picture("Ender Dragon", row=row), SCALE, FONT)
 
 
-def test_a_text_beside_the_middle_is_no_pause() -> None:
+def test_a_text_off_the_middle_is_not_taken_for_a_pause() -> None:
     assert not shows_pause(picture("Ender Dragon", aside=10), SCALE, FONT)
 
 
-def test_a_text_without_a_shadow_is_no_pause() -> None:
+def test_a_text_without_a_shadow_is_not_taken_for_a_pause() -> None:
     frame = picture("Game Paused")
     frame[(frame == 63).all(2)] = 90
     assert not shows_pause(frame, SCALE, FONT)
 
 
 @pytest.mark.parametrize("ground", [0, 63, 90, 255])
-def test_a_ground_without_words_is_no_pause(ground: int) -> None:
+def test_a_ground_without_words_is_not_taken_for_a_pause(ground: int) -> None:
     assert not shows_pause(picture(" ", ground=ground), SCALE, FONT)

@@ -49,7 +49,7 @@ def test_each_line_has_its_box_with_a_dot_around_the_text(scale: int) -> None:
 
 
 @pytest.mark.parametrize("kind", [*(kind for kind in WORLDS if kind != "specks"), "bright", "dark"])
-def test_a_box_reaches_from_side_to_side_of_what_was_drawn_whatever_is_behind(kind: str) -> None:
+def test_a_box_is_as_wide_as_it_was_drawn_over_any_world(kind: str) -> None:
     world = random_world(np.random.default_rng(1), kind, 854, 480)
     frame = paint(world, SCREEN, FONT)
     is_changed = (frame != world).any(2)
@@ -62,7 +62,7 @@ def test_a_picture_without_a_debug_screen_has_no_boxes() -> None:
     assert line_boxes(bare(400, 200), 1) == []
 
 
-def test_a_line_that_something_dark_lies_over_ends_there() -> None:
+def test_a_lines_box_ends_where_something_dark_covers_it() -> None:
     frame = paint(bare(600, 300), SCREEN, FONT)
     whole = line_boxes(frame, 1)[0]
     frame[0:12, 40:] = 0
@@ -71,14 +71,14 @@ def test_a_line_that_something_dark_lies_over_ends_there() -> None:
     assert 36 <= ended.width <= 42 < 60 < whole.width
 
 
-def test_under_a_box_the_world_is_a_mean_with_its_grey() -> None:
+def test_a_box_mixes_the_world_with_its_grey() -> None:
     frame = paint(bare(600, 300), SCREEN, FONT)
     box = line_boxes(frame, 1)[0]
     under = frame[box.top, box.left]
     assert under.tolist() == [round(GREY * ALPHA + 100 * (1 - ALPHA))] * 3
 
 
-def test_ink_is_white_green_or_red_as_the_game_writes() -> None:
+def test_letters_are_white_green_or_red() -> None:
     picture = np.array([[(224, 224, 224), (221, 221, 221), (85, 255, 85), (85, 85, 255), (200, 200, 200)]], np.uint8)
     assert has_letters(picture).tolist() == [[True, True, True, True, False]]
 
@@ -109,14 +109,14 @@ def test_each_ground_lies_where_it_was_drawn(scale: int) -> None:
 
 
 @pytest.mark.parametrize("kind", [*(kind for kind in WORLDS if kind != "specks"), "bright", "dark"])
-def test_boxes_are_found_before_any_world(kind: str) -> None:
+def test_most_grounds_are_found_over_any_world(kind: str) -> None:
     world = random_world(np.random.default_rng(1), kind, 854, 480)
     plain = ground_parts(paint(np.full_like(world, 100), BOXED_SCREEN, FONT), 1)
     found = ground_parts(paint(world, BOXED_SCREEN, FONT), 1)
     assert len(set(found) & set(plain)) >= 0.7 * len(plain)
 
 
-def test_titles_lie_on_a_darker_ground() -> None:
+def test_titles_lie_on_a_ground_of_their_own_grey() -> None:
     parts = ground_parts(paint(np.full((300, 700, 3), 100, np.uint8), BOXED_SCREEN, FONT), 1)
     assert {part.grey for part in parts} == {TITLE_GREY, GREY}
     assert all(part.region.height == 9 for part in parts if part.grey == TITLE_GREY)

@@ -78,19 +78,19 @@ def test_the_block_of_a_mod_is_read_with_its_namespace(layout: Layout) -> None:
 
 
 @pytest.mark.parametrize("layout", LAYOUTS)
-def test_no_block_looked_at_is_no_target(layout: Layout) -> None:
+def test_a_screen_without_a_target_block_reads_as_no_target(layout: Layout) -> None:
     shown = dataclasses.replace(screen(layout), target=None)
     assert read_debug_screen(painted(shown), FONT) == expected(shown)
 
 
 @pytest.mark.parametrize("layout", [layout for layout in LAYOUTS if layout not in ("1.8-1.12", "standin")])
-def test_a_fluid_is_not_taken_for_the_block(layout: Layout) -> None:
+def test_a_fluid_beside_a_block_is_not_taken_for_the_block(layout: Layout) -> None:
     shown = dataclasses.replace(screen(layout), fluid=(1, 62, 3))
     assert read_debug_screen(painted(shown), FONT) == expected(shown)
 
 
 @pytest.mark.parametrize("layout", [layout for layout in LAYOUTS if layout not in ("1.8-1.12", "standin", "26.4")])
-def test_a_fluid_without_a_block_is_not_taken_for_no_block(layout: Layout) -> None:
+def test_a_fluid_without_a_block_is_reported_as_a_problem(layout: Layout) -> None:
     shown = dataclasses.replace(screen(layout), target=None, fluid=(1, 62, 3))
     if layout == "1.21.9-26.3":
         shown = dataclasses.replace(shown, entries=(*shown.shown, "looking_at_fluid_state"))
@@ -98,7 +98,7 @@ def test_a_fluid_without_a_block_is_not_taken_for_no_block(layout: Layout) -> No
 
 
 @pytest.mark.parametrize(("width", "is_read"), [(427, False), (480, True)])
-def test_a_long_tag_beside_the_facing_line_needs_480_dots(width: int, is_read: bool) -> None:
+def test_a_long_tag_covers_the_facing_line_in_a_window_of_427_dots_and_not_of_480(width: int, is_read: bool) -> None:
     # Obsidian's from 1.20.5 on; the order of tags isn't known, and the first one stands beside the Facing line.
     shown = dataclasses.replace(screen("1.19.3-1.21.8"), yaw=-179.9, tags=("minecraft:incorrect_for_wooden_tool",))
     shown = dataclasses.replace(shown, target=Target((-9, 63, 12), "minecraft:obsidian"), properties=())
@@ -134,7 +134,7 @@ def test_a_frame_shifted_by_a_window_border_is_read() -> None:
 
 
 @pytest.mark.parametrize("grey", [221, 224, 227])
-def test_text_a_little_off_its_colour_is_read_with_the_overlay_known(grey: int) -> None:
+def test_text_slightly_off_its_colour_is_read_with_a_known_overlay(grey: int) -> None:
     shown = screen()
     frame = painted(shown)
     frame[frame == 224] = grey
@@ -164,7 +164,7 @@ def test_a_line_that_ends_in_a_coloured_value_is_read(value: str) -> None:
 
 @pytest.mark.parametrize("layout", ["1.8-1.12", "1.13-1.15"])
 @pytest.mark.parametrize("gap", [4, 5, 9])
-def test_specks_of_the_texts_colour_beside_a_line_are_not_read_as_part_of_it(layout: Layout, gap: int) -> None:
+def test_specks_of_the_texts_colour_behind_a_line_are_ignored(layout: Layout, gap: int) -> None:
     shown = screen(layout)
     frame = painted(shown)
     row, column = start_of(frame, 2, "Looking at")
@@ -179,7 +179,7 @@ def test_an_overlay_of_another_scale_is_a_problem() -> None:
     assert "GUI scale 3" in (read_debug_screen(painted(screen()), FONT, Overlay(3, VANILLA, (224,) * 3)).problem or "")
 
 
-def test_without_a_debug_screen_there_is_no_overlay() -> None:
+def test_find_overlay_gives_none_without_a_debug_screen() -> None:
     assert find_overlay(world(2), FONT) is None
 
 
@@ -194,12 +194,12 @@ def test_reduced_debug_info_is_reported() -> None:
     assert "reducedDebugInfo" in (reading.problem or "")
 
 
-def test_a_fluids_box_alone_is_no_block() -> None:
+def test_a_fluids_box_without_a_blocks_box_reads_as_no_target() -> None:
     shown = dataclasses.replace(screen("26.4"), target=None, fluid=(1, 62, 3))
     assert read_debug_screen(painted(shown), FONT) == expected(shown)
 
 
-def test_a_line_alone_is_no_debug_screen() -> None:
+def test_a_single_line_is_not_taken_for_a_debug_screen() -> None:
     for like, entry in (
         (screen("1.21.9-26.3"), "game_version"),
         (screen("1.21.9-26.3"), "memory"),
@@ -210,21 +210,21 @@ def test_a_line_alone_is_no_debug_screen() -> None:
 
 
 @pytest.mark.parametrize("layout", ["1.21.9-26.3", "26.4"])
-def test_f3_without_a_position_is_told_to_switch_it_on(layout: Layout) -> None:
+def test_a_debug_screen_without_a_position_says_how_to_switch_it_on(layout: Layout) -> None:
     entries = ("fps", "memory", "simple_performance_impactors", "tps")
     shown = dataclasses.replace(screen(layout), entries=entries, has_f3=True)
     assert "F3+F6 adds the line" in (read_debug_screen(painted(shown), FONT).problem or "")
 
 
 @pytest.mark.parametrize("layout", ["1.21.9-26.3", "26.4"])
-def test_a_section_without_a_position_is_a_reduced_screen(layout: Layout) -> None:
+def test_a_section_line_without_a_position_is_reported_as_a_reduced_screen(layout: Layout) -> None:
     shown = dataclasses.replace(screen(layout), entries=None, has_f3=True, reduced=True)
     problem = read_debug_screen(painted(shown), FONT).problem or ""
     assert problem.startswith("the debug screen is reduced")
     assert "minecraft:player_position" in problem
 
 
-def test_columns_that_are_full_leave_open_whether_a_block_is_looked_at() -> None:
+def test_full_columns_without_a_target_block_are_a_problem() -> None:
     entries = ("player_position", "system_specs", "entity_spawn_counts", "heightmap", "tps")
     shown = dataclasses.replace(screen("26.4"), target=None, entries=entries, has_f3=False)
     for rows, is_full in ((240, False), (110, True)):
@@ -246,7 +246,7 @@ def test_two_position_lines_are_a_problem() -> None:
 
 @pytest.mark.parametrize("prefix", ["XYZ: -", "Facing: north (Tow", "Targeted Block: -9", "minecraft:oak_"])
 @pytest.mark.parametrize("grey", [0, 60, 100, 140, 255])
-def test_something_over_part_of_a_line_is_a_problem(prefix: str, grey: int) -> None:
+def test_a_partly_covered_line_is_a_problem(prefix: str, grey: int) -> None:
     frame = painted(screen(), grey=20)
     row, column = start_of(frame, 2, prefix)
     hidden = column + len(FONT.columns(prefix))
@@ -272,7 +272,7 @@ def test_chat_in_the_colour_of_the_text_over_a_line_is_a_problem() -> None:
 
 
 @pytest.mark.parametrize("label", ["Targeted B", "ted Block:", "minecraft:oak"])
-def test_half_a_label_is_not_taken_for_no_block(label: str) -> None:
+def test_a_half_covered_label_of_the_block_is_a_problem(label: str) -> None:
     frame = painted(screen())
     row, column = start_of(frame, 2, label)
     frame[2 * row : 2 * row + 16, 2 * column : 2 * column + 2 * len(FONT.columns(label))] = 0
@@ -302,7 +302,7 @@ OVER = ("black", "white", "flat", "noise", "shade", "text")
 # Always the same examples: something opaque, flat and of the box's own grey looks like the box, and a random run would
 # find such an example one day.
 @settings(derandomize=True)
-def test_whatever_lies_over_it_no_wrong_number_is_read(layout: Layout, kind: str, seed: int) -> None:
+def test_a_covered_debug_screen_never_gives_a_wrong_number(layout: Layout, kind: str, seed: int) -> None:
     rng = np.random.default_rng(seed)
     shown = random_screen(rng, layout, 1)
     frame = paint(random_world(rng, WORLDS[int(rng.integers(len(WORLDS)))], 430, 240), shown, FONT)
@@ -328,7 +328,7 @@ def cover(frame: Frame, kind: str, rng: np.random.Generator) -> None:
 
 
 @pytest.mark.slow
-def test_a_thousand_frames_hold_no_wrong_reading_and_one_unread_at_most() -> None:
+def test_of_a_thousand_frames_none_is_misread_and_at_most_one_unread() -> None:
     unread = 0
     for shown, frame in itertools.islice(frames(FONT, seed=0), 1000):
         reading = read_debug_screen(frame, FONT)

@@ -50,7 +50,7 @@ def test_names_values_titles_and_plain_lines_are_read(label: str, text: str, gre
     assert found.has_value == (label != "120 fps")
 
 
-def test_a_text_in_the_names_colour_is_no_value() -> None:
+def test_a_text_in_the_names_colour_is_not_taken_for_a_value() -> None:
     frame = painted()
     row, _ = positions_of(GlyphGrid(frame, 1, 200), FONT, "Type:")[0]
     part = frame[row : row + 8]
@@ -60,7 +60,7 @@ def test_a_text_in_the_names_colour_is_no_value() -> None:
     assert found.text.startswith(f"Type:{UNKNOWN}")
 
 
-def test_a_text_outside_the_values_column_is_no_value() -> None:
+def test_a_text_outside_the_values_column_is_not_taken_for_a_value() -> None:
     frame = painted()
     found = line(frame, "Type:")
     behind = found.start + len(FONT.columns("Type:"))
@@ -80,7 +80,7 @@ def test_a_value_whose_end_is_covered_is_not_whole(cover: int) -> None:
     assert not again.whole or UNKNOWN in again.text
 
 
-def test_a_line_is_whole_where_the_world_changes_just_behind_it_and_goes_on_behind_its_box() -> None:
+def test_a_line_is_whole_if_the_world_shows_behind_its_box_but_not_if_another_box_does() -> None:
     screen = dataclasses.replace(SCREEN, entries=("fps", "looking_at_block_state", "player_position"))
     screen = dataclasses.replace(screen, target=Target((-1234, -61, 123456), "minecraft:dirt"))
     world = np.full((240, 640, 3), 120, np.uint8)
@@ -92,7 +92,7 @@ def test_a_line_is_whole_where_the_world_changes_just_behind_it_and_goes_on_behi
     assert not line(frame, "Type:").whole
 
 
-def test_ink_behind_a_column_is_left_out() -> None:
+def test_fact_from_leaves_out_ink_behind_the_given_end() -> None:
     frame = painted()
     dots = GlyphGrid(frame, 1, 200)
     whole = line(frame, "Coordinates:")

@@ -56,7 +56,7 @@ def test_a_picture_of_sixteen_bits_gives_the_same_font(tmp_path: Path) -> None:
     assert load_font(tmp_path / "deep.png") == font_of(drawn_atlas())
 
 
-def test_the_pen_moves_by_the_last_used_column_and_two_and_by_four_for_a_space() -> None:
+def test_a_glyph_advances_the_pen_by_its_width_and_a_gap_and_a_space_by_four() -> None:
     atlas = np.zeros((128, 128, 4), np.uint8)
     atlas[...] = drawn_atlas()
     cell(atlas, "w")[..., 3] = 0
@@ -65,7 +65,7 @@ def test_the_pen_moves_by_the_last_used_column_and_two_and_by_four_for_a_space()
     assert font.columns("w w") == b"\0\4\4\4\0" + b"\0" * 4 + b"\0\4\4\4\0"
 
 
-def test_letters_that_look_alike_are_never_looked_up() -> None:
+def test_letters_with_the_same_glyph_are_left_out_of_the_lookup() -> None:
     atlas = drawn_atlas()
     cell(atlas, "I")[...] = cell(atlas, "l")
     known = {char for char, *_ in font_of(atlas).lookup.values()}
@@ -73,7 +73,7 @@ def test_letters_that_look_alike_are_never_looked_up() -> None:
     assert "l" not in known
 
 
-def test_a_glyph_that_may_be_two_others_is_never_looked_up() -> None:
+def test_quotation_marks_are_left_out_of_the_lookup_as_one_may_be_two_apostrophes() -> None:
     known = {char for char, *_ in font_of(drawn_atlas()).lookup.values()}
     assert known == set(LETTERS) - {'"', "'"}
 
@@ -113,7 +113,7 @@ def spoilt(name: str) -> bytes:
         ("half a jar", "not a picture"),
     ],
 )
-def test_what_cannot_be_used_is_said_in_one_line(tmp_path: Path, name: str, words: str) -> None:
+def test_an_unusable_font_file_is_a_one_line_error(tmp_path: Path, name: str, words: str) -> None:
     (tmp_path / "given").write_bytes(spoilt(name))
     with pytest.raises(FontError, match=words) as caught:
         load_font(tmp_path / "given")
@@ -121,19 +121,19 @@ def test_what_cannot_be_used_is_said_in_one_line(tmp_path: Path, name: str, word
 
 
 @pytest.mark.parametrize("name", ["missing.png", "empty folder"])
-def test_what_is_not_there_is_reported(tmp_path: Path, name: str) -> None:
+def test_a_missing_font_file_is_reported(tmp_path: Path, name: str) -> None:
     (tmp_path / "empty folder").mkdir()
     with pytest.raises(FontError, match="there is no"):
         load_font(tmp_path / name)
 
 
-def test_text_with_a_letter_that_the_font_lacks_cannot_be_laid_out() -> None:
+def test_laying_out_a_letter_that_the_font_lacks_is_an_error() -> None:
     with pytest.raises(FontError, match="é"):
         font_of(drawn_atlas()).columns("é")
 
 
 @given(st.binary(max_size=400))
-def test_any_bytes_are_a_font_or_a_font_error(tmp_path_factory: pytest.TempPathFactory, data: bytes) -> None:
+def test_a_file_of_random_bytes_is_a_font_error(tmp_path_factory: pytest.TempPathFactory, data: bytes) -> None:
     path = tmp_path_factory.mktemp("any") / "given"
     path.write_bytes(data)
     with pytest.raises(FontError):

@@ -36,7 +36,7 @@ def test_the_scale_is_measured_once_for_each_size_of_the_window() -> None:
     assert [screen.gui_scale(), screen.gui_scale(), display.whole_grabs] == [3, 3, 2]
 
 
-def test_without_a_debug_screen_the_scale_stays_what_it_was() -> None:
+def test_the_gui_scale_is_kept_while_no_debug_screen_is_seen() -> None:
     display = OneFrameDisplay(debug_screen(2, ground()))
     screen = WindowScreen(display, FONT)
     screen.gui_scale()
@@ -44,20 +44,20 @@ def test_without_a_debug_screen_the_scale_stays_what_it_was() -> None:
     assert screen.gui_scale() == 2
 
 
-def test_the_overlay_that_is_given_says_the_scale_and_no_picture_is_taken() -> None:
+def test_a_given_overlay_sets_the_gui_scale_without_a_picture() -> None:
     display = OneFrameDisplay(ground())
     assert WindowScreen(display, FONT, Overlay(3, VANILLA, (224, 224, 224))).gui_scale() == 3
     assert display.whole_grabs == 0
 
 
 @pytest.mark.parametrize("scale", [1, 2, 3])
-def test_the_list_of_worlds_says_the_scale_before_any_debug_screen_was_seen(scale: int) -> None:
+def test_the_gui_scale_is_found_on_the_list_of_worlds_before_any_debug_screen(scale: int) -> None:
     frame = ground()
     painter(frame, scale).text(WORLDS_TITLE, 50, 10)
     assert WindowScreen(OneFrameDisplay(frame), FONT).gui_scale() == scale
 
 
-def test_an_unknown_scale_is_1() -> None:
+def test_an_unknown_gui_scale_counts_as_1() -> None:
     assert WindowScreen(OneFrameDisplay(ground()), FONT).gui_scale() == 1
 
 
@@ -73,14 +73,14 @@ def test_a_white_text_is_found_by_its_middle_the_uppermost_first(scale: int) -> 
     )
 
 
-def test_a_text_with_something_behind_it_or_of_another_colour_is_not_found() -> None:
+def test_position_of_ignores_a_longer_text_and_one_of_another_colour() -> None:
     frame = ground()
     painter(frame, 2).text("New World2", 40, 30)
     painter(frame, 2).text("New World", 40, 60, GREY)
     assert WindowScreen(OneFrameDisplay(frame), FONT).position_of("New World") is None
 
 
-def test_the_chat_is_open_where_its_line_begins_with_a_letter_and_holds_what_stands_there() -> None:
+def test_the_chat_is_open_once_its_line_has_a_letter_and_its_text_is_compared_exactly() -> None:
     frame = ground()
     screen = WindowScreen(OneFrameDisplay(frame), FONT, Overlay(2, VANILLA, (224, 224, 224)))
     assert not screen.is_chat_open()
@@ -91,7 +91,7 @@ def test_the_chat_is_open_where_its_line_begins_with_a_letter_and_holds_what_sta
     assert not screen.is_typed("/tp 1 2")
 
 
-def test_a_menus_texts_and_buttons_are_those_on_the_screen() -> None:
+def test_a_menus_texts_and_buttons_are_found_on_the_screen() -> None:
     frame = ground()
     middle = painter(frame, 2).button("Respawn", 115, 60, 200)
     menu = WindowScreen(OneFrameDisplay(frame), FONT).menu()
@@ -102,7 +102,7 @@ def test_a_menus_texts_and_buttons_are_those_on_the_screen() -> None:
     assert max(abs(found[0] - middle[0]), abs(found[1] - middle[1])) <= 4
 
 
-def test_what_the_debug_screen_says_is_read_whole_and_then_its_position_alone() -> None:
+def test_read_position_gives_none_before_the_first_whole_reading() -> None:
     display = OneFrameDisplay(debug_screen(2, ground()))
     screen = WindowScreen(display, FONT)
     assert screen.read_position() is None, "it isn't known yet where the line stands"

@@ -23,32 +23,32 @@ def frame_with(columns: bytes, row: int, column: int, scale: int, size: tuple[in
 
 @pytest.mark.parametrize("scale", [1, 2, 3, 4])
 @pytest.mark.parametrize("position", [(0, 0), (13, 7), (22, 37)])
-def test_a_pattern_is_found_where_it_stands(scale: int, position: tuple[int, int]) -> None:
+def test_a_pattern_is_found_only_at_its_position(scale: int, position: tuple[int, int]) -> None:
     pattern = bytes((BAR, CORNER, BAR))
     assert GlyphGrid(frame_with(pattern, *position, scale), scale, 200).find(pattern) == [position]
 
 
-def test_in_a_grid_of_lines_only_each_pitchth_row_from_the_first_on_is_searched() -> None:
+def test_a_pattern_is_searched_for_only_in_the_rows_of_a_given_pitch() -> None:
     pattern = bytes((BAR, CORNER, BAR))
     for row in (2, 10, 11, 20):
         found = GlyphGrid(frame_with(pattern, row, 5, 2), 2, 200, first=2, pitch=9).find(pattern)
         assert found == ([(row, 5)] if row in (2, 11, 20) else [])
 
 
-def test_each_of_several_is_found() -> None:
+def test_a_pattern_that_stands_twice_is_found_twice() -> None:
     pattern = bytes((BAR, CORNER))
     frame = np.maximum(frame_with(pattern, 1, 3, 1), frame_with(pattern, 12, 38, 1))
     assert GlyphGrid(frame, 1, 200).find(pattern) == [(1, 3), (12, 38)]
 
 
-def test_a_pattern_does_not_go_on_in_the_next_row() -> None:
+def test_a_pattern_is_not_found_across_the_end_of_a_row() -> None:
     pattern = bytes((BAR, CORNER, BAR))
     frame = np.maximum(frame_with(pattern[:2], 3, 38, 1), frame_with(pattern[2:], 4, 0, 1))
     assert GlyphGrid(frame, 1, 200).find(pattern) == []
 
 
 @pytest.mark.parametrize("pattern", [b"", bytes((BAR,)), bytes((BAR,)) * 2000])
-def test_a_pattern_of_fewer_than_two_columns_or_more_than_there_are_is_nowhere(pattern: bytes) -> None:
+def test_a_pattern_shorter_than_two_columns_or_wider_than_the_frame_is_not_found(pattern: bytes) -> None:
     assert GlyphGrid(frame_with(bytes((BAR,)), 3, 3, 1), 1, 200).find(pattern) == []
 
 
@@ -78,14 +78,14 @@ def test_ink_is_where_green_is_bright_enough() -> None:
         (1440, 2560, 8, 173, 320),
     ],
 )
-def test_a_dot_counts_where_its_middle_is_in_the_frame(
+def test_a_dot_counts_if_its_middle_pixel_is_in_the_frame(
     height: int, width: int, scale: int, rows: int, columns: int
 ) -> None:
     grid = GlyphGrid(np.zeros((height, width, 3), np.uint8), scale, 200)
     assert (grid.rows, grid.columns) == (rows, columns)
 
 
-def test_a_row_that_does_not_count_is_not_looked_through() -> None:
+def test_a_pattern_in_a_row_whose_dots_are_cut_off_is_not_found() -> None:
     # Of the last row of dots the middles are cut off: glyphs begin in rows 0 to 21.
     pattern = bytes((BAR, CORNER))
     cut = frame_with(pattern, 22, 5, 2)[:-1]
@@ -93,14 +93,14 @@ def test_a_row_that_does_not_count_is_not_looked_through() -> None:
     assert GlyphGrid(cut, 2, 200, first=4, pitch=9).find(pattern) == []
 
 
-def test_a_strip_is_the_middle_pixel_of_each_of_its_dots() -> None:
+def test_a_strip_holds_the_middle_pixel_of_each_dot() -> None:
     frame = np.random.default_rng(0).integers(0, 256, (60, 90, 3), np.uint8)
     strip = GlyphGrid(frame, 3, 200).strip(5, 2, 6)
     np.testing.assert_array_equal(strip, frame[16:40:3, 7:19:3])
 
 
 @given(st.binary(min_size=2, max_size=6), st.integers(1, 3), st.integers(0, 22), st.integers(0, 34))
-def test_a_pattern_is_found_at_its_row_and_column(pattern: bytes, scale: int, row: int, column: int) -> None:
+def test_any_pattern_is_found_at_its_row_and_column(pattern: bytes, scale: int, row: int, column: int) -> None:
     grid = GlyphGrid(frame_with(pattern, row, column, scale), scale, 200)
     assert (row, column) in grid.find(pattern)
     assert (row, column) in GlyphGrid(grid.frame, scale, 200, row % 9, 9).find(pattern)

@@ -35,37 +35,37 @@ def painted(layout: Layout, notices: tuple[str, ...], target: Target | None = TA
 
 @pytest.mark.parametrize("count", [1, 2, 3, 4, 5])
 @pytest.mark.parametrize("layout", GAME_LAYOUTS)
-def test_however_many_notices_lie_over_it_a_block_that_is_looked_at_is_never_none(layout: Layout, count: int) -> None:
+def test_a_block_under_notices_is_read_right_or_reported_as_unread(layout: Layout, count: int) -> None:
     reading = read_debug_screen(painted(layout, ("Open your inventory",) * count), FONT)
     assert reading.problem is not None or reading.target == TARGET
 
 
 @pytest.mark.parametrize("place", range(5))
 @pytest.mark.parametrize("layout", GAME_LAYOUTS)
-def test_a_block_under_a_single_notice_left_is_never_none(layout: Layout, place: int) -> None:
+def test_a_block_under_one_remaining_notice_is_read_right_or_reported_as_unread(layout: Layout, place: int) -> None:
     reading = read_debug_screen(painted(layout, ("",) * place + ("Look around",)), FONT)
     assert reading.problem is not None or reading.target == TARGET
 
 
 @pytest.mark.parametrize("layout", GAME_LAYOUTS)
-def test_without_notices_no_block_is_looked_at_where_none_is(layout: Layout) -> None:
+def test_a_screen_without_notices_and_target_reads_as_no_target(layout: Layout) -> None:
     reading = read_debug_screen(painted(layout, (), None), FONT)
     assert (reading.problem, reading.target) == (None, None)
 
 
 @pytest.mark.parametrize("world", [*WORLDS, "bright", "dark"])
-def test_a_notice_is_seen_before_any_world(world: str) -> None:
+def test_a_notice_is_seen_in_front_of_any_world(world: str) -> None:
     dots = GlyphGrid(painted("1.19.3-1.21.8", ("", "", "", "Find a tree"), None, world), 2, 200)
     assert may_hide_lines(dots)
 
 
-def test_random_debug_screens_without_notices_show_no_notice() -> None:
+def test_no_notice_is_seen_on_random_debug_screens_without_one() -> None:
     cases = (next_case for next_case, _ in zip(frames(FONT, 5), range(120), strict=False))
     for shown, frame in cases:
         if shown.layout != "standin":
             assert not may_hide_lines(GlyphGrid(frame, shown.gui_scale, 200)), dataclasses.astuple(shown)
 
 
-def test_a_plain_sky_shows_no_notice() -> None:
+def test_no_notice_is_seen_on_a_plain_sky() -> None:
     assert not may_hide_lines(GlyphGrid(np.full((480, 854, 3), 200, np.uint8), 2, 200))
     assert not may_hide_lines(GlyphGrid(np.full((20, 30, 3), 200, np.uint8), 2, 200))

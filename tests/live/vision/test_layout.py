@@ -1,4 +1,4 @@
-"""What is known of the layouts, beside what the virtual client paints of them."""
+"""The layouts' constants, compared with what the virtual client paints."""
 
 import numpy as np
 import pytest
@@ -35,25 +35,25 @@ def start_of(frame: Frame, text: str) -> tuple[int, int]:
     return positions_of(GlyphGrid(frame, 1, 210), FONT, text)[0]
 
 
-def test_vanillas_own_layout() -> None:
+def test_the_vanilla_layout_has_the_games_lengths_and_colours() -> None:
     assert ScreenLayout("vanilla", 9, (224, 224, 224), VANILLA.box, True, 4, False) == VANILLA
     assert (VANILLA.box.grey, VANILLA.box.behind) == (80, 2)
 
 
-def test_the_stand_ins_own_layout() -> None:
+def test_the_stand_in_layout_has_its_lengths_and_colours() -> None:
     assert ScreenLayout("stand-in", 10, (255, 255, 255), STANDIN.box, False, None, True) == STANDIN
     assert (STANDIN.box.grey, STANDIN.box.behind) == (110, 1)
 
 
-def test_lines_of_the_chat_and_of_vanilla_are_as_high() -> None:
+def test_vanillas_lines_are_as_high_as_the_chats() -> None:
     assert VANILLA.pitch == LINE_PITCH
 
 
-def test_a_profile_names_a_layout_by_its_own_name() -> None:
+def test_three_layouts_can_be_named_in_a_profile() -> None:
     assert LAYOUTS == {"vanilla": VANILLA, "boxes": BOXES, "stand-in": STANDIN}
 
 
-def test_an_overlays_lines_are_as_high_as_its_layouts() -> None:
+def test_an_overlay_has_its_layouts_line_pitch() -> None:
     assert [Overlay(3, layout, (224,) * 3).pitch for layout in (VANILLA, STANDIN)] == [9, 10]
 
 
@@ -67,7 +67,7 @@ def test_text_is_painted_in_the_layouts_colour_at_its_pitch(name: Layout, layout
 
 
 @pytest.mark.parametrize(("name", "layout"), BOTH)
-def test_the_box_goes_on_behind_a_lines_last_ink_as_far_as_is_said(name: Layout, layout: ScreenLayout) -> None:
+def test_a_box_ends_the_layouts_number_of_columns_behind_the_last_ink(name: Layout, layout: ScreenLayout) -> None:
     frame = painted(name)
     row, _ = start_of(frame, "XYZ:")
     line = frame[row : row + 7, : COLUMNS // 2, 1]
@@ -77,21 +77,21 @@ def test_the_box_goes_on_behind_a_lines_last_ink_as_far_as_is_said(name: Layout,
 
 
 @pytest.mark.parametrize(("name", "layout"), BOTH)
-def test_a_sky_of_the_boxs_grey_is_not_changed_by_it(name: Layout, layout: ScreenLayout) -> None:
+def test_a_box_does_not_change_a_sky_of_its_own_grey(name: Layout, layout: ScreenLayout) -> None:
     frame = painted(name, sky=layout.box.grey)
     row, column = start_of(frame, "XYZ:")
     assert set(np.unique(frame[row : row + 7, column : column + 30])) == {layout.box.grey, layout.text_colour[0]}
 
 
 @pytest.mark.parametrize(("name", "layout"), BOTH)
-def test_only_vanillas_lines_all_stand_in_one_grid(name: Layout, layout: ScreenLayout) -> None:
+def test_vanillas_lines_stand_in_one_grid_and_the_stand_ins_do_not(name: Layout, layout: ScreenLayout) -> None:
     frame = painted(name)
     labels = ["Prismarine" if name == "standin" else "Minecraft 1.16", "XYZ:"]  # an empty line lies between
     rows = {start_of(frame, label)[0] % layout.pitch for label in labels}
     assert (len(rows) == 1) is layout.has_one_grid
 
 
-def test_vanillas_right_column_ends_at_its_edge() -> None:
+def test_vanillas_right_column_ends_at_the_layouts_right_edge() -> None:
     frame = painted("1.16-1.19.2")
     row, column = start_of(frame, "minecraft:stone")
     inked = np.flatnonzero((frame[row : row + 7, column:, 1] == 224).any(axis=0)) + column

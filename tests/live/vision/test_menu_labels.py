@@ -78,14 +78,14 @@ def test_each_button_is_found_within_two_gui_pixels_of_its_middle(
 
 
 @pytest.mark.parametrize("scale", [1, 2, 3, 4])
-def test_with_the_gui_scale_given_only_that_one_is_tried(scale: int) -> None:
+def test_only_the_given_gui_scale_is_tried(scale: int) -> None:
     menu = painter((1280, 960), 2)
     menu.button("Respawn", 100, 100, 200)
     assert (MenuLabels(menu.frame, FONT, scale).button("Respawn").middle is not None) == (scale == 2)
 
 
 @pytest.mark.parametrize("label", ["Back", "to Game", "Game", "Back to G", "Back to Gam", "Respawn"])
-def test_part_of_a_label_or_another_is_no_button(label: str) -> None:
+def test_a_part_of_a_label_or_another_label_is_not_found_as_a_button(label: str) -> None:
     menu = painter()
     menu.button("Back to Game", 100, 100, 200)
     found = MenuLabels(menu.frame, FONT).button(label)
@@ -93,7 +93,7 @@ def test_part_of_a_label_or_another_is_no_button(label: str) -> None:
     assert repr(label) in (found.problem or "")
 
 
-def test_a_title_is_shown_but_no_button() -> None:
+def test_a_menus_title_is_seen_as_text_and_not_as_a_button() -> None:
     menu = painter()
     menu.frame //= 4  # as the world behind it is dimmed
     menu.text("Game Menu", 180, 40)
@@ -143,7 +143,7 @@ def test_text_without_a_shadow_is_not_a_label() -> None:
 
 
 @pytest.mark.parametrize("shape", [(0, 0), (1, 1), (7, 900), (30, 30)])
-def test_a_frame_too_small_for_a_button_has_none(shape: tuple[int, int]) -> None:
+def test_no_button_is_found_in_a_frame_too_small_for_it(shape: tuple[int, int]) -> None:
     assert MenuLabels(np.full((*shape, 3), 255, np.uint8), FONT).button("Respawn").middle is None
 
 
@@ -153,7 +153,7 @@ def test_a_label_that_the_font_lacks_is_reported() -> None:
 
 
 @pytest.mark.parametrize("shade", [0, 255])
-def test_over_a_world_of_its_outlines_colour_a_button_is_seen_by_its_face(shade: int) -> None:
+def test_a_button_over_a_world_of_its_outlines_colour_is_found_by_its_face(shade: int) -> None:
     frame = np.full((480, 854, 3), shade, np.uint8)
     over = MenuPainter(frame, 2, FONT, np.random.default_rng(0))
     over.button("Respawn", 115, 60, 200, WHITE if shade == 0 else HOVERED)
@@ -161,7 +161,7 @@ def test_over_a_world_of_its_outlines_colour_a_button_is_seen_by_its_face(shade:
 
 
 @pytest.mark.parametrize("missing", [0, 19])
-def test_a_label_between_a_line_and_none_is_on_no_button(missing: int) -> None:
+def test_a_label_with_only_one_outline_is_not_on_a_button(missing: int) -> None:
     frame = np.full((480, 854, 3), 90, np.uint8)
     over = MenuPainter(frame, 2, FONT, np.random.default_rng(0))
     over.button("Respawn", 115, 60, 200)
@@ -173,7 +173,7 @@ def test_a_label_between_a_line_and_none_is_on_no_button(missing: int) -> None:
     assert "on no button" in (MenuLabels(frame, FONT).button("Respawn").problem or "")
 
 
-def test_a_button_whose_face_has_its_outlines_colour_is_seen_by_the_world_around_it() -> None:
+def test_a_button_whose_face_has_its_outlines_colour_is_found_by_the_world_around_it() -> None:
     over = painter()
     over.frame[2 * 60 : 2 * 80, 2 * 115 : 2 * 315] = 111
     over.text("Respawn", 115 + (200 - len(FONT.columns("Respawn"))) // 2, 66)

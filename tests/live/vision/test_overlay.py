@@ -1,4 +1,4 @@
-"""Where the debug screen is found on painted frames: by which line, at which scale, in which colour and layout."""
+"""Finding the debug screen on painted frames: by which line, at which scale, in which colour and layout."""
 
 import dataclasses
 
@@ -61,7 +61,7 @@ def test_every_layout_is_found_at_every_scale_by_its_position_line(layout: Layou
 @pytest.mark.parametrize("version", ["1.12.2", "1.20.1", "26.1"])
 @pytest.mark.parametrize("screen_name", ["title", "servers"])
 @pytest.mark.parametrize("overlay", [None, Overlay(2, VANILLA, VANILLA_INK)])
-def test_the_games_name_on_a_menu_is_no_debug_screen(
+def test_the_games_name_on_a_menu_is_not_taken_for_a_debug_screen(
     version: str, screen_name: ScreenName, overlay: Overlay | None
 ) -> None:
     painter = Painter((854, 480), Scales(2, 2), FONT, Edition(version), "noise", 0)
@@ -70,7 +70,7 @@ def test_the_games_name_on_a_menu_is_no_debug_screen(
     assert find_debug_screen(frame, FONT, overlay) is None
 
 
-def test_a_debug_screens_first_line_is_still_one_beside_the_games_name_in_white() -> None:
+def test_a_debug_screen_is_found_by_its_line_with_the_games_name() -> None:
     frame = painted(screen())
     for label in ("XYZ:", "Block:", "Chunk:", "Facing", "Targeted "):
         for row, _ in positions_of(GlyphGrid(frame, 2, 200), FONT, label):
@@ -81,7 +81,7 @@ def test_a_debug_screens_first_line_is_still_one_beside_the_games_name_in_white(
 
 
 @pytest.mark.parametrize("layout", ["1.16-1.19.2", "standin"])
-def test_without_its_position_line_another_line_shows_it(layout: Layout) -> None:
+def test_a_debug_screen_without_its_position_line_is_found_by_another_line(layout: Layout) -> None:
     frame = painted(screen(layout))
     cover_line(frame, 2, "XYZ:")
     found = find_debug_screen(frame, FONT)
@@ -89,13 +89,13 @@ def test_without_its_position_line_another_line_shows_it(layout: Layout) -> None
     assert (found.overlay.layout, found.label) == (STANDIN if layout == "standin" else VANILLA, "Facing")
 
 
-def test_a_reduced_screen_is_found_by_its_own_line() -> None:
+def test_a_reduced_debug_screen_is_found_by_its_own_line() -> None:
     found = find_debug_screen(painted(dataclasses.replace(screen(), reduced=True)), FONT)
     assert found is not None
     assert found.label == "Chunk-relative:"
 
 
-def test_a_screen_whose_left_column_is_covered_is_found_by_the_right_one() -> None:
+def test_a_debug_screen_with_a_covered_left_column_is_found_by_the_right_one() -> None:
     frame = painted(screen())
     frame[:, : frame.shape[1] // 3] = 0
     found = find_debug_screen(frame, FONT)
@@ -111,7 +111,7 @@ def test_a_position_line_in_the_right_column_is_found_there() -> None:
     assert (found.overlay.scale, found.label) == (2, "XYZ:")
 
 
-def test_the_colour_is_the_inks_own_as_red_green_and_blue() -> None:
+def test_the_overlays_colour_is_the_inks_as_red_green_blue() -> None:
     frame = painted(screen())
     frame[(frame == 224).all(axis=2)] = (222, 223, 221)
     assert find_overlay(frame, FONT) == Overlay(2, VANILLA, (221, 223, 222))
@@ -119,13 +119,13 @@ def test_the_colour_is_the_inks_own_as_red_green_and_blue() -> None:
 
 @pytest.mark.parametrize("seed", range(3))
 @pytest.mark.parametrize("kind", [*WORLDS, "bright", "dark"])
-def test_noise_has_no_debug_screen(kind: str, seed: int) -> None:
+def test_no_debug_screen_is_found_in_noise(kind: str, seed: int) -> None:
     world = random_world(np.random.default_rng(seed), kind, 854, 480)
     assert find_debug_screen(world, FONT) is None
     assert find_overlay(world, FONT) is None
 
 
-def test_another_font_finds_no_debug_screen() -> None:
+def test_no_debug_screen_is_found_with_another_font() -> None:
     other = Font({char: columns[::-1] + b"\7" for char, columns in FONT.glyphs.items()})
     assert find_overlay(painted(screen()), other) is None
 
@@ -142,11 +142,11 @@ def test_a_known_overlay_is_kept_as_it_is() -> None:
     [Overlay(3, VANILLA, VANILLA_INK), Overlay(1, VANILLA, VANILLA_INK), Overlay(2, VANILLA, STANDIN_INK)],
     ids=["a larger scale", "a smaller scale", "a brighter ink"],
 )
-def test_with_a_known_overlay_nothing_that_is_drawn_otherwise_is_found(known: Overlay) -> None:
+def test_a_debug_screen_that_differs_from_the_known_overlay_is_not_found(known: Overlay) -> None:
     assert find_debug_screen(painted(screen()), FONT, known) is None
 
 
-def test_ink_is_a_little_darker_than_the_known_colour_at_most() -> None:
+def test_ink_more_than_4_darker_than_the_known_colour_is_not_found() -> None:
     # 4 below 228 is 224; 4 below 229 is more than that.
     frame = painted(screen())
     assert find_debug_screen(frame, FONT, Overlay(2, VANILLA, (255, 228, 255))) is not None
@@ -156,7 +156,9 @@ def test_ink_is_a_little_darker_than_the_known_colour_at_most() -> None:
 @pytest.mark.parametrize(
     ("layout", "label", "is_found"), [("1.16-1.19.2", "Targeted ", False), ("standin", "Looking at:", True)]
 )
-def test_a_line_outside_the_grid_is_passed_over_in_vanilla_alone(layout: Layout, label: str, is_found: bool) -> None:
+def test_a_line_outside_the_grid_is_ignored_in_vanilla_and_found_in_the_stand_in(
+    layout: Layout, label: str, is_found: bool
+) -> None:
     frame = painted(screen(layout))
     right = frame[:, 2 * 215 :]
     right[:] = np.roll(right, 2, axis=0)  # a dot lower

@@ -1,4 +1,4 @@
-"""What lines written down say: the position and the view in each form, and each reason why they are unreadable."""
+"""Reading written lines: the position and the view in each form, and each reason why they are unreadable."""
 
 import pytest
 
@@ -28,7 +28,7 @@ def test_the_stand_ins_forms_are_read() -> None:
 
 
 @pytest.mark.parametrize("behind", ["", f" {UNKNOWN}i", " i", UNKNOWN])
-def test_what_the_world_shows_behind_a_complete_position_is_no_part_of_it(behind: str) -> None:
+def test_text_behind_a_complete_position_is_ignored(behind: str) -> None:
     assert said(XYZ + behind, FACING + behind).xyz == (-8.5, 64.0, 12345.678)
 
 
@@ -43,14 +43,14 @@ def test_what_the_world_shows_behind_a_complete_position_is_no_part_of_it(behind
         f"XYZ: -8.5{UNKNOWN}0 / 64.00000 / 12345.678",
     ],
 )
-def test_a_position_of_another_form_is_a_problem_and_nothing_else_is_given(text: str) -> None:
+def test_a_malformed_position_is_a_problem_and_gives_no_values(text: str) -> None:
     reading = said(text, FACING)
     assert (reading.xyz, reading.yaw, reading.target) == (None, None, None)
     assert (reading.problem or "").startswith("a line reads 'XYZ: ")
 
 
 @pytest.mark.parametrize(("yaw", "pitch"), [("180.0", "90.0"), ("-180.0", "-90.0")])
-def test_the_ends_of_the_views_range_are_read(yaw: str, pitch: str) -> None:
+def test_the_largest_and_smallest_view_angles_are_read(yaw: str, pitch: str) -> None:
     reading = said(XYZ, f"Facing: north (Towards negative Z) ({yaw} / {pitch})")
     assert (reading.yaw, reading.pitch) == (float(yaw), float(pitch))
 
@@ -61,11 +61,11 @@ def test_a_view_out_of_range_is_a_problem(yaw: str, pitch: str) -> None:
     assert problem.startswith(f"a yaw of {yaw} with a pitch of {pitch} can't be")
 
 
-def test_without_a_view_there_is_a_problem() -> None:
+def test_a_missing_facing_line_is_a_problem() -> None:
     assert (said(XYZ).problem or "").startswith("the debug screen shows no Facing line")
 
 
-def test_the_position_is_read_without_the_rest_and_a_missing_one_gives_none() -> None:
+def test_read_position_needs_only_the_position_line_and_gives_none_without_it() -> None:
     assert read_position(WrittenLines(written(XYZ, 0))) == (-8.5, 64.0, 12345.678)
     assert read_position(WrittenLines(written("XYZ: 1", 0))) is None
     assert read_position(WrittenLines()) is None
@@ -83,16 +83,16 @@ def test_a_debug_screen_of_any_version_without_a_position_is_told_how_to_show_it
 
 
 @pytest.mark.parametrize("label", ["Section-relative:", "Section-Relative:"])
-def test_a_section_without_a_position_is_reduced_too(label: str) -> None:
+def test_a_section_line_without_a_position_is_reported_as_reduced(label: str) -> None:
     problem = said(f"{label} 04 04 11", label=label).problem or ""
     assert problem.startswith("the debug screen is reduced and shows no XYZ")
     assert problem.endswith("minecraft:player_position on (F3+F6)")
 
 
-def test_a_debug_screen_without_its_title_and_position_lacks_its_position() -> None:
+def test_a_debug_screen_without_title_and_position_is_reported_as_lacking_xyz() -> None:
     assert (said("Facing: north", label="Facing").problem or "").startswith("no XYZ line is to be seen")
 
 
-def test_where_nothing_is_seen_the_scale_that_was_looked_for_is_named() -> None:
+def test_the_problem_without_a_debug_screen_names_the_scales_tried() -> None:
     assert "at GUI scale 3: press F3" in (nothing_seen(Overlay(3, VANILLA, (224, 224, 224))).problem or "")
     assert "at a GUI scale from 1 to 8: press F3" in (nothing_seen(None).problem or "")

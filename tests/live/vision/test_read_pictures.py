@@ -36,13 +36,13 @@ def picture(path: Path, screen: F3Screen = SCREEN) -> Path:
 
 
 @pytest.mark.parametrize("overlay", [None, Overlay(2, VANILLA, (224, 224, 224))], ids=["found", "given"])
-def test_a_picture_gives_its_reading(tmp_path: Path, overlay: Overlay | None) -> None:
+def test_read_picture_returns_the_reading_of_a_picture_file(tmp_path: Path, overlay: Overlay | None) -> None:
     path = picture(tmp_path / "größe.png".replace("ö", "o").replace("ß", "ss"))
     target = Target((8, 63, -2), "minecraft:stone")
     assert read_picture(path, FONT, overlay) == PictureReading(path, (8.5, 64.0, -3.25), 0.0, 65.0, target, None)
 
 
-def test_no_block_looked_at_is_a_null_target(tmp_path: Path) -> None:
+def test_a_picture_without_a_target_block_has_target_none(tmp_path: Path) -> None:
     screen = F3Screen("1.16-1.19.2", 2, (8.5, 64.0, -3.25), 0.0, -65.0)
     assert read_picture(picture(tmp_path / "sky.png", screen), FONT, None).target is None
 
@@ -50,7 +50,7 @@ def test_no_block_looked_at_is_a_null_target(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     "data", [None, b"", b"no picture", b"\x89PNG\r\n\x1a\n"], ids=["missing", "empty", "text", "cut"]
 )
-def test_a_file_that_is_no_picture_is_a_problem(tmp_path: Path, data: bytes | None) -> None:
+def test_a_file_that_is_not_a_picture_is_an_error(tmp_path: Path, data: bytes | None) -> None:
     path = tmp_path / "given.png"
     if data is not None:
         path.write_bytes(data)
@@ -58,17 +58,17 @@ def test_a_file_that_is_no_picture_is_a_problem(tmp_path: Path, data: bytes | No
         read_picture(path, FONT, None)
 
 
-def test_a_folder_is_a_problem(tmp_path: Path) -> None:
+def test_reading_a_folder_as_a_picture_is_an_error(tmp_path: Path) -> None:
     with pytest.raises(PictureError, match="can't be read"):
         read_picture(tmp_path, FONT, None)
 
 
-def test_a_grey_picture_of_sixteen_bits_is_a_problem_and_no_crash(tmp_path: Path) -> None:
+def test_a_grey_picture_of_sixteen_bits_reads_as_unreadable(tmp_path: Path) -> None:
     cv2.imwrite(str(tmp_path / "deep.png"), np.zeros((300, 400), np.uint16))
     assert read_picture(tmp_path / "deep.png", FONT, None).xyz is None
 
 
-def test_a_picture_of_more_pixels_than_can_be_opened_is_a_problem(tmp_path: Path) -> None:
+def test_a_picture_with_too_many_pixels_to_open_is_an_error(tmp_path: Path) -> None:
     header = b"IHDR" + struct.pack(">IIBBBBB", 60_000, 60_000, 8, 2, 0, 0, 0)
     data = b"\x89PNG\r\n\x1a\n" + struct.pack(">I", 13) + header + struct.pack(">I", zlib.crc32(header))
     (tmp_path / "huge.png").write_bytes(data)
@@ -83,9 +83,7 @@ def test_a_png_without_a_debug_screen_is_not_called_a_jpeg(tmp_path: Path) -> No
 
 
 @pytest.mark.parametrize(("left", "top"), [(100, 62), (0, 0)])
-def test_a_picture_of_more_than_the_window_says_that_it_should_be_of_the_window_alone(
-    left: int, top: int, tmp_path: Path
-) -> None:
+def test_a_picture_with_the_desktop_around_the_window_says_to_cut_it_off(left: int, top: int, tmp_path: Path) -> None:
     screen = F3Screen("1.16-1.19.2", 2, (8.5, 64.0, -3.25), 0.0, -65.0)
     desktop = np.full((top + 480 + 100, left + 854 + 300, 3), 90, np.uint8)
     desktop[top : top + 480, left : left + 854] = paint(np.full((480, 854, 3), 60, np.uint8), screen, FONT)
@@ -95,14 +93,14 @@ def test_a_picture_of_more_than_the_window_says_that_it_should_be_of_the_window_
     )
 
 
-def test_a_picture_without_a_debug_screen_may_be_of_more_than_the_window(tmp_path: Path) -> None:
+def test_the_problem_without_a_debug_screen_says_to_picture_the_window_alone(tmp_path: Path) -> None:
     cv2.imwrite(str(tmp_path / "world.png"), np.full((480, 854, 3), 60, np.uint8))
     assert str(read_picture(tmp_path / "world.png", FONT).problem).endswith(
         "; and the picture has to be of the game's window alone, as F2 takes it"
     )
 
 
-def test_a_jpeg_that_can_not_be_read_says_that_it_is_one(tmp_path: Path) -> None:
+def test_the_problem_of_an_unreadable_jpeg_names_the_jpeg(tmp_path: Path) -> None:
     assert "a JPEG blurs" in str(read_picture(picture(tmp_path / "screen.jpg"), FONT, None).problem)
 
 
@@ -143,14 +141,14 @@ def test_a_picture_of_the_window_alone_is_recognised(layout: Layout, scale: int)
 
 @pytest.mark.parametrize("layout", LAYOUTS)
 @pytest.mark.parametrize("around", [(100, 62, 300, 200), (0, 25, 0, 0), (100, 0, 0, 0)])
-def test_a_picture_with_the_title_bar_or_the_desktop_is_not_of_the_window_alone(
+def test_a_picture_with_title_bar_or_desktop_is_recognised_as_more_than_the_window(
     layout: Layout, around: tuple[int, int, int, int]
 ) -> None:
     assert shows_more(on_desktop(window(layout), *around))
 
 
 @pytest.mark.parametrize("layout", [layout for layout in LAYOUTS if layout not in ("standin", "26.4")])
-def test_a_window_in_the_desktops_corner_is_not_a_picture_of_the_window_alone(layout: Layout) -> None:
+def test_a_window_in_the_desktops_corner_is_recognised_as_more_than_the_window(layout: Layout) -> None:
     desktop = on_desktop(window(layout), 0, 0, 300, 100)
     assert str(read_debug_screen(desktop, FONT).problem).startswith("a notice may lie over")
     assert shows_more(desktop)

@@ -49,7 +49,7 @@ def folder_of(path: Path, **changes: Any) -> Path:
     return path
 
 
-def test_pictures_that_are_as_their_truths_say_differ_in_nothing(tmp_path: Path) -> None:
+def test_pictures_that_match_their_truths_have_no_differences(tmp_path: Path) -> None:
     folder = folder_of(tmp_path)
     read = truths(folder)
     assert [truth["file"] for truth in read] == ["a.png", "b.png"]
@@ -66,7 +66,7 @@ def test_pictures_that_are_as_their_truths_say_differ_in_nothing(tmp_path: Path)
         {"target": {"pos": [8, 63, -2], "id": "x"}},
     ],
 )
-def test_each_difference_is_told(change: dict[str, Any], tmp_path: Path) -> None:
+def test_each_difference_from_the_truth_is_reported(change: dict[str, Any], tmp_path: Path) -> None:
     folder = folder_of(tmp_path, **change)
     (told,) = differences(folder, truths(folder)[0])
     assert told.startswith(f"a.png: {next(iter(change))} is ")

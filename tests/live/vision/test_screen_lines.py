@@ -32,7 +32,7 @@ def lines_of(layout: Layout = "1.16-1.19.2", size: tuple[int, int] = (480, 861))
     return ScreenLines(found.dots, FONT, found.overlay)
 
 
-def test_a_label_gives_the_line_from_there_on() -> None:
+def test_starting_reads_the_line_from_the_label_on() -> None:
     lines = lines_of()
     assert [line.text for line in lines.starting("XYZ:")] == ["XYZ: 8.500 / 64.00000 / 3.500"]
     assert [line.text for line in lines.starting("64.0")] == ["64.00000 / 3.500"]
@@ -40,13 +40,13 @@ def test_a_label_gives_the_line_from_there_on() -> None:
     assert not lines.holds("Looking at")
 
 
-def test_the_right_column_is_read_from_above_even_where_the_last_dot_is_cut() -> None:
+def test_the_right_column_is_read_from_the_top_even_if_the_last_dot_is_cut() -> None:
     texts = [line.text for line in lines_of(size=(480, 861)).right_column()]
     assert texts[0] == "Java: 21.0.3 64bit"
     assert texts[-3:] == ["Targeted Block: 8, 63, 4", "minecraft:oak_log", "axis: y"]
 
 
-def test_where_the_layout_does_not_say_where_the_right_column_ends_it_has_no_lines() -> None:
+def test_the_stand_ins_right_column_gives_no_lines() -> None:
     assert lines_of("standin").right_column() == []
 
 
@@ -59,7 +59,7 @@ def test_screen_lines_keep_where_the_requested_lines_stood() -> None:
     assert lines.rows_read == {label.row, label.row + 9}
 
 
-def test_remembered_lines_are_not_looked_for() -> None:
+def test_remembered_lines_are_read_without_a_search() -> None:
     found = found_in()
     (position,) = positions_of(found.dots, FONT, "XYZ:")
     lines = ScreenLines(found.dots, FONT, found.overlay, {"XYZ:": [position]})
@@ -74,7 +74,7 @@ def test_a_remembered_line_that_stands_elsewhere_is_unreadable() -> None:
         lines.starting("Facing: ")
 
 
-def test_a_line_on_the_left_is_cut_where_a_text_ends_and_seen_whole_only_at_its_boxs_end() -> None:
+def test_a_left_line_can_be_cut_to_its_beginning_and_is_then_not_whole() -> None:
     lines = lines_of()
     (line,) = lines.starting("XYZ:")
     cut = lines.cut(line, "XYZ: 8.500")
@@ -84,20 +84,20 @@ def test_a_line_on_the_left_is_cut_where_a_text_ends_and_seen_whole_only_at_its_
     assert lines.cut(line, line.text) is line
 
 
-def test_a_line_is_not_cut_to_a_text_that_it_does_not_begin_with_or_that_is_not_known() -> None:
+def test_a_line_can_not_be_cut_to_another_or_an_unknown_text() -> None:
     lines = lines_of()
     (line,) = lines.starting("XYZ:")
     assert lines.cut(line, "XYZ: 9.500") is None
     assert lines.cut(line, f"XYZ: {UNKNOWN}.500") is None
 
 
-def test_a_line_on_the_right_is_not_cut() -> None:
+def test_a_right_line_can_not_be_cut() -> None:
     lines = lines_of()
     (line,) = lines.starting("Targeted Block")
     assert lines.cut(line, "Targeted Block") is None
 
 
-def test_two_lines_with_one_label_are_unreadable_and_no_line_gives_none() -> None:
+def test_only_line_raises_for_two_lines_and_gives_none_for_no_line() -> None:
     lines = WrittenLines(written("Facing: north", 1), written("Facing: south", 2), written("XYZ: 1", 3))
     with pytest.raises(Unreadable, match="2 lines begin with 'Facing:'"):
         only_line(lines, "Facing: ")
@@ -105,14 +105,14 @@ def test_two_lines_with_one_label_are_unreadable_and_no_line_gives_none() -> Non
     assert only_line(lines, "Block:") is None
 
 
-def test_a_message_shows_what_is_unknown_as_a_question_mark() -> None:
+def test_messages_show_unknown_glyphs_as_question_marks() -> None:
     assert shown(f"XYZ: {UNKNOWN}.5") == "'XYZ: ?.5'"
     with pytest.raises(Unreadable, match=r"the end of 'XYZ: [?][.]5' may be covered"):
         check_whole(written(f"XYZ: {UNKNOWN}.5", 0, whole=False))
     check_whole(written("XYZ: 1.5", 0))
 
 
-def test_a_line_that_is_not_there_has_no_form() -> None:
+def test_matching_a_missing_line_is_unreadable() -> None:
     with pytest.raises(Unreadable, match="a line reads ''"):
         matched(re.compile(".*"), None)
     assert matched(re.compile("(X).*(Z)"), written("XYZ", 0)) == ("X", "Z")

@@ -68,7 +68,7 @@ def opened(shown: F3Screen) -> tuple[ScreenReader, Pictures]:
 
 
 @pytest.mark.parametrize("layout", LAYOUTS)
-def test_the_next_reading_pictures_only_the_rows_of_the_last_ones_lines(layout: Layout) -> None:
+def test_a_second_reading_pictures_only_the_rows_of_the_first_ones_lines(layout: Layout) -> None:
     reader, pictures = opened(screen(layout))
     moved = screen(layout, x=8.716)
     pictures.frame = painted(moved)
@@ -98,13 +98,13 @@ def test_lines_that_moved_are_found_and_remembered() -> None:
 
 
 @pytest.mark.parametrize("size", [(1000, 480), (700, 480), (860, 260), (330, 60)])
-def test_a_window_of_another_size_reads_as_with_a_new_reader(size: tuple[int, int]) -> None:
+def test_a_resized_window_is_read_as_by_a_new_reader(size: tuple[int, int]) -> None:
     reader, pictures = opened(screen())
     pictures.frame = painted(screen(x=9.5), *size)
     assert reader.read() == read_debug_screen(pictures.frame, FONT)
 
 
-def test_that_no_block_is_looked_at_is_only_said_of_the_whole_window() -> None:
+def test_no_target_is_reported_only_after_picturing_the_whole_window() -> None:
     reader, pictures = opened(screen())
     sky = dataclasses.replace(screen(), target=None)
     pictures.frame = painted(sky)
@@ -114,7 +114,7 @@ def test_that_no_block_is_looked_at_is_only_said_of_the_whole_window() -> None:
 
 
 @pytest.mark.parametrize("layout", [layout for layout in LAYOUTS if layout != "standin"])
-def test_a_block_that_comes_to_be_looked_at_is_seen_at_once(layout: Layout) -> None:
+def test_a_new_target_block_is_seen_by_the_next_reading(layout: Layout) -> None:
     block = screen(layout)
     sky = dataclasses.replace(block, target=None)
     reader, pictures = opened(sky)
@@ -124,7 +124,7 @@ def test_a_block_that_comes_to_be_looked_at_is_seen_at_once(layout: Layout) -> N
 
 
 @pytest.mark.parametrize("layout", [layout for layout in LAYOUTS if layout != "standin"])
-def test_that_no_block_is_looked_at_is_seen_without_a_search(layout: Layout, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_second_reading_without_a_target_needs_no_search(layout: Layout, monkeypatch: pytest.MonkeyPatch) -> None:
     # So small that 26.4's columns leave room for a block.
     sky = dataclasses.replace(screen(layout), target=None, gui_scale=1)
     reader, pictures = opened(sky)
@@ -133,7 +133,7 @@ def test_that_no_block_is_looked_at_is_seen_without_a_search(layout: Layout, mon
     assert reader.read().xyz == (9.0, 64.0, 3.5)
 
 
-def test_the_very_picture_that_was_read_is_not_read_again() -> None:
+def test_an_unchanged_read_only_picture_is_not_read_again() -> None:
     sky = dataclasses.replace(screen(), target=None)  # so the whole window is pictured each time
     reader, pictures = opened(sky)
     pictures.frame = painted(sky)
@@ -144,7 +144,7 @@ def test_the_very_picture_that_was_read_is_not_read_again() -> None:
     assert reader.last_look is look
 
 
-def test_a_picture_that_can_be_written_to_is_read_each_time() -> None:
+def test_a_writeable_picture_is_read_each_time() -> None:
     sky = dataclasses.replace(screen(), target=None)
     reader, pictures = opened(sky)
     moved = dataclasses.replace(sky, xyz=(9.0, 64.0, 3.5))
@@ -162,7 +162,7 @@ def spoilt(frame: Frame, name: str) -> Frame:
 
 
 @pytest.mark.parametrize("name", ["black", "dimmed", "covered", "shifted"])
-def test_a_damaged_frame_reads_as_with_a_new_reader_and_the_next_one_is_read(name: str) -> None:
+def test_a_damaged_frame_is_read_as_by_a_new_reader_and_does_not_disturb_the_next(name: str) -> None:
     reader, pictures = opened(screen())
     pictures.frame = spoilt(painted(screen()), name)
     assert reader.read() == read_debug_screen(pictures.frame, FONT)
@@ -171,7 +171,7 @@ def test_a_damaged_frame_reads_as_with_a_new_reader_and_the_next_one_is_read(nam
 
 
 @given(st.sampled_from(LAYOUTS), st.sampled_from(WORLDS), st.integers(0, 2**32 - 1))
-def test_two_screens_after_each_other_are_read_as_each_alone(layout: Layout, kind: str, seed: int) -> None:
+def test_successive_screens_are_read_as_by_a_new_reader(layout: Layout, kind: str, seed: int) -> None:
     rng = np.random.default_rng(seed)
     pictures = Pictures(np.zeros((480, 860, 3), np.uint8))
     reader = ScreenReader(pictures, FONT)
@@ -204,7 +204,7 @@ def lines_of(frame: Frame) -> ScreenLines:
 
 
 @pytest.mark.parametrize("layout", GAMES)
-def test_the_sign_of_no_block_stays_while_the_player_moves_and_goes_with_a_block(layout: Layout) -> None:
+def test_the_sign_of_no_block_survives_a_move_and_disappears_with_a_block(layout: Layout) -> None:
     lines = lines_of(painted_on_noise(sky(layout)))
     sign = sign_of_no_block(lines, FONT)
     assert sign is not None
@@ -214,17 +214,17 @@ def test_the_sign_of_no_block_stays_while_the_player_moves_and_goes_with_a_block
 
 
 @pytest.mark.parametrize("layout", ["1.21.9-26.3", "26.4"])
-def test_there_is_no_sign_while_something_else_is_looked_at(layout: Layout) -> None:
+def test_an_entity_in_sight_gives_no_sign_of_no_block(layout: Layout) -> None:
     entries = ("looking_at_block_state", "looking_at_entity", "player_position")
     shown = sky(layout, entries=entries, entity=(8.5, 64.0, 5.5), has_f3=False)
     assert sign_of_no_block(lines_of(painted_on_noise(shown)), FONT) is None
 
 
-def test_there_is_no_sign_where_a_block_might_have_no_room() -> None:
+def test_columns_without_room_for_a_block_give_no_sign_of_no_block() -> None:
     frame = painted_on_noise(sky("26.4"))
     assert sign_of_no_block(lines_of(frame), FONT) is not None
     assert sign_of_no_block(lines_of(frame[:260]), FONT) is None
 
 
-def test_there_is_no_sign_in_a_shifted_picture_of_boxes() -> None:
+def test_a_shifted_picture_of_boxes_gives_no_sign_of_no_block() -> None:
     assert sign_of_no_block(lines_of(np.pad(painted_on_noise(sky("26.4")), ((31, 0), (5, 5), (0, 0)))), FONT) is None

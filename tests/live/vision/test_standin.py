@@ -41,11 +41,11 @@ def test_the_stand_ins_lines_are_10_apart_white_and_in_no_grid() -> None:
     )
 
 
-def test_the_blocks_name_stands_above_its_position() -> None:
+def test_the_blocks_name_is_read_above_its_position() -> None:
     assert of(FIRST, written("oak_log", 5), LOOKING) == Target((1, 2, 3), "oak_log")
 
 
-def test_the_blocks_properties_stand_between() -> None:
+def test_the_blocks_name_is_found_above_its_properties() -> None:
     value = dataclasses.replace(written("snowy: true", 4), has_value=True)
     lines = (written("oak_log", 3), value, written("axis: y", 5))
     assert of(FIRST, *lines, LOOKING) == Target((1, 2, 3), "oak_log")
@@ -56,7 +56,7 @@ def test_a_value_whose_property_is_covered_is_not_taken_for_the_name() -> None:
     assert "the block's name reads 'true'" in why_not(FIRST, written("oak_log", 4), value, LOOKING)
 
 
-def test_a_property_that_is_covered_in_part_is_passed_over() -> None:
+def test_a_partly_covered_property_is_skipped() -> None:
     assert of(FIRST, written("oak_log", 4), written(f"a{UNKNOWN}s: y", 5), LOOKING) == Target((1, 2, 3), "oak_log")
 
 
@@ -69,7 +69,7 @@ def test_a_name_is_looked_for_up_to_12_lines_above(number: int, is_read: bool) -
         assert "the name of the block looked at can't be seen" in why_not(*lines)
 
 
-def test_a_text_that_is_no_block_name_is_reported() -> None:
+def test_a_text_that_is_not_a_block_name_is_reported() -> None:
     assert "the block's name reads 'oak log'" in why_not(FIRST, written("oak log", 5), LOOKING)
 
 
@@ -77,22 +77,22 @@ def test_a_name_whose_end_may_be_covered_is_not_read() -> None:
     assert "the end of 'oak_log' may be covered" in why_not(FIRST, written("oak_log", 5, whole=False), LOOKING)
 
 
-def test_a_position_that_ends_elsewhere_than_the_column_is_not_seen_whole() -> None:
+def test_a_position_that_ends_before_the_columns_end_may_be_covered() -> None:
     short = dataclasses.replace(LOOKING, end=LOOKING.end - 6)
     assert "the end of 'Looking at: 1 2 3' may be covered" in why_not(FIRST, written("oak_log", 5), short)
 
 
-def test_without_the_columns_first_line_the_target_is_unknown() -> None:
+def test_the_target_is_unknown_without_the_columns_first_line() -> None:
     assert "the upper right of the debug screen can't be seen" in why_not(written("oak_log", 5), LOOKING)
     assert "the upper right of the debug screen can't be seen" in why_not()
 
 
-def test_an_empty_column_is_no_block() -> None:
+def test_an_empty_column_means_no_target() -> None:
     assert of(FIRST) is None
 
 
 @pytest.mark.parametrize(("below", "is_seen"), [(19, True), (9, False), (20, False), (159, True), (169, False)])
-def test_anything_in_the_column_below_its_first_line_is_not_taken_for_no_block(below: int, is_seen: bool) -> None:
+def test_an_unexplained_text_where_a_block_may_stand_is_unreadable(below: int, is_seen: bool) -> None:
     # An empty line is 9 high: the block's lines begin 19 below the first line, and up to 15 of them are looked through.
     line = dataclasses.replace(written("oak_log", 0), row=FIRST.row + below)
     if is_seen:
@@ -101,6 +101,6 @@ def test_anything_in_the_column_below_its_first_line_is_not_taken_for_no_block(b
         assert of(FIRST, line) is None
 
 
-def test_a_speck_in_the_column_is_no_line() -> None:
+def test_a_speck_in_the_column_is_ignored() -> None:
     speck = dataclasses.replace(written(f"i{UNKNOWN}", 0), row=FIRST.row + 19)
     assert of(FIRST, speck) is None

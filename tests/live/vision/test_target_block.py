@@ -37,12 +37,12 @@ def test_1_13_writes_the_position_on_the_left_and_the_id_below_a_label_on_the_ri
 
 
 @pytest.mark.parametrize("right", [True, False])
-def test_1_16_writes_both_below_each_other_in_either_column(right: bool) -> None:
+def test_1_16_writes_the_id_below_the_position_in_either_column(right: bool) -> None:
     block = written("minecraft:stone", 5, right=right)
     assert of(written("Targeted Block: -9, 63, 12", 4, right=right), block) == STONE
 
 
-def test_no_line_of_a_block_is_no_block() -> None:
+def test_lines_without_a_block_give_no_target() -> None:
     assert of(written("XYZ: 1.000 / 2.00000 / 3.000", 0)) is None
 
 
@@ -51,20 +51,20 @@ def test_a_block_of_a_mod_is_found_by_where_its_line_ends() -> None:
     assert of(written("Looking at: 1 2 3", 9), block) == Target((1, 2, 3), "some-mod:machine/a_2")
 
 
-def test_the_id_of_1_8_is_not_the_biomes_on_the_left() -> None:
+def test_a_biome_on_the_left_is_not_taken_for_the_id_of_1_8() -> None:
     assert of(written("Looking at: -9 63 12", 9), written("minecraft:plains", 3), ID) == STONE
 
 
 @pytest.mark.parametrize("ids", [[], [ID, written("minecraft:dirt", 6, right=True)]])
-def test_none_or_two_ids_on_the_right_of_1_8_are_reported_with_their_count(ids: list[Line]) -> None:
+def test_zero_or_two_ids_on_the_right_of_1_8_are_unreadable(ids: list[Line]) -> None:
     assert f"{len(ids)} lines may be the id" in why_not(written("Looking at: 1 2 3", 9), *ids)
 
 
-def test_what_the_world_shows_behind_a_position_on_the_left_is_no_part_of_it() -> None:
+def test_text_behind_a_position_on_the_left_is_ignored() -> None:
     assert of(written(f"Looking at: -9 63 12 {UNKNOWN}i", 9), ID) == STONE
 
 
-def test_on_the_right_nothing_may_follow_a_position() -> None:
+def test_a_position_on_the_right_with_text_behind_it_is_unreadable() -> None:
     label = written("Targeted Block: -9, 63, 12 .", 4, right=True)
     assert "a line reads 'Targeted Block: -9, 63, 12 .'" in why_not(label, ID)
 
@@ -97,12 +97,12 @@ def test_an_id_of_which_a_part_may_be_covered_is_not_read(text: str) -> None:
     assert "the id of the block looked at reads" in why_not(label, written(text, 5, right=True))
 
 
-def test_specks_left_of_an_id_are_no_part_of_it() -> None:
+def test_specks_left_of_an_id_are_ignored() -> None:
     label = written("Targeted Block: -9, 63, 12", 4, right=True)
     assert of(label, written(f"{UNKNOWN} i minecraft:stone", 5, right=True)) == STONE
 
 
-def test_what_the_world_shows_behind_an_id_on_the_left_is_no_part_of_it() -> None:
+def test_text_behind_an_id_on_the_left_is_ignored() -> None:
     label = written("Targeted Block: -9, 63, 12", 4)
     assert of(label, written(f"minecraft:stone {UNKNOWN}", 5)) == STONE
 
@@ -122,7 +122,7 @@ def test_1_13s_position_without_its_label_is_reported() -> None:
 
 
 @pytest.mark.parametrize("label", ["Targeted Block: 1, 2, 3", "Looking at: 1 2 3", "Looking at block: 1 2 3"])
-def test_two_lines_of_a_label_are_not_chosen_between(label: str) -> None:
+def test_two_lines_with_the_same_label_are_unreadable(label: str) -> None:
     assert "2 lines begin with" in why_not(written(label, 4), written(label, 20), ID)
 
 
@@ -130,11 +130,11 @@ def test_two_lines_of_a_label_are_not_chosen_between(label: str) -> None:
     "text",
     ["Targeted Blo", "geted Block: 1, 2, 3", "Looking at b", "oking at block: 1 2 3", "ooking at: 1", "ing at: 1"],
 )
-def test_half_a_label_is_not_taken_for_no_block(text: str) -> None:
+def test_half_a_label_is_unreadable(text: str) -> None:
     assert "of the block looked at only" in why_not(written(text, 4))
 
 
-def test_an_id_without_a_label_over_it_does_not_mean_that_no_block_is_looked_at() -> None:
+def test_an_id_without_a_label_over_it_is_unreadable() -> None:
     assert "what 'minecraft:stone' belongs to can't be seen" in why_not(ID)
     assert "what 'minecraft:stone' belongs to can't be seen" in why_not(ID, written("CPU: 4x", 4, right=True))
     assert "belongs to can't be seen" in why_not(written(f"{UNKNOWN}minecraft:stone", 5, right=True))
@@ -143,7 +143,7 @@ def test_an_id_without_a_label_over_it_does_not_mean_that_no_block_is_looked_at(
 
 @pytest.mark.parametrize("label", ["Targeted Fluid: 1, 2, 3", "Targeted Entity"])
 @pytest.mark.parametrize("right", [True, False])
-def test_an_id_below_a_fluids_or_an_entitys_label_is_no_block(label: str, right: bool) -> None:
+def test_an_id_below_an_entitys_label_gives_no_target_and_below_a_fluids_is_unreadable(label: str, right: bool) -> None:
     lines = [written(label, 4, right=right), written("minecraft:lava", 5, right=right)]
     if right:  # aligned where the lines end, not where they begin
         assert lines[0].start != lines[1].start
@@ -154,11 +154,11 @@ def test_an_id_below_a_fluids_or_an_entitys_label_is_no_block(label: str, right:
 
 
 @pytest.mark.parametrize("text", ["Biome: minecraft:plains", "minecraft:overworld FC: 0", "minecraft:the_nether"])
-def test_a_biome_or_a_dimension_is_no_block(text: str) -> None:
+def test_a_biome_or_dimension_is_not_taken_for_a_block(text: str) -> None:
     assert of(written(text, 5)) is None
 
 
-def test_tags_without_a_label_do_not_mean_that_no_block_is_looked_at() -> None:
+def test_tags_without_a_label_are_unreadable() -> None:
     tags = written("#minecraft:planks", 8, right=True)
     assert "which block the tags" in why_not(tags)
     assert of(tags, written("Targeted Entity", 4, right=True)) is None
@@ -170,7 +170,7 @@ OWN_LINES = [
 
 
 @pytest.mark.parametrize("title", ["Minecraft 1.12.2 (1.12.2/vanilla)", "Minecraft 1.21.8 (x)", "Minecraft 25w31a"])
-def test_up_to_1_21_8_no_block_is_looked_at_only_where_the_right_columns_own_lines_are_seen(title: str) -> None:
+def test_up_to_1_21_8_no_target_is_reported_only_with_all_right_column_lines_seen(title: str) -> None:
     assert of(written(title, 0), *OWN_LINES) is None
     for covered in range(len(OWN_LINES)):
         rest = [line for row, line in enumerate(OWN_LINES) if row != covered]
@@ -183,12 +183,12 @@ def test_from_1_21_9_on_the_right_column_may_lack_any_line(title: str) -> None:
     assert of(written(title, 0)) is None
 
 
-def test_where_something_like_a_notice_is_seen_the_block_may_be_covered() -> None:
+def test_a_possible_notice_makes_the_target_unreadable() -> None:
     with pytest.raises(Unreadable, match="a notice may lie over"):
         target_block(WrittenLines(*OWN_LINES, is_covered=True))
 
 
-def test_the_ids_line_ends_where_its_label_ends() -> None:
+def test_written_lines_on_the_right_end_at_the_same_column() -> None:
     assert ID.end == written("Targeted Block: 1, 2, 3", 4, right=True).end == RIGHT
 
 
@@ -201,17 +201,17 @@ def said(*texts: str, whole: bool = True, is_covered: bool = False) -> Target | 
     return target_in_box(WrittenLines(*lines, layout=BOXES, is_covered=is_covered), PLAYER)
 
 
-def test_coordinates_and_type_are_the_target() -> None:
+def test_the_target_is_read_from_the_boxs_coordinates_and_type() -> None:
     assert said(TITLE, PLACE, KIND, "axis: y") == Target((4, -61, 11), "minecraft:stone")
     assert said(TITLE, PLACE, "Type: some-mod:machine/casing_2") == Target((4, -61, 11), "some-mod:machine/casing_2")
 
 
-def test_without_a_box_no_block_is_looked_at() -> None:
+def test_lines_without_a_blocks_box_give_no_target() -> None:
     assert said("Position", "XYZ: 4.500 / -60.00000 / 11.500") is None
 
 
 @pytest.mark.parametrize("title", ["Looking At Fluid", "Looking At Entity"])
-def test_the_box_of_something_else_is_no_block(title: str) -> None:
+def test_the_box_of_a_fluid_or_an_entity_is_not_taken_for_a_block(title: str) -> None:
     assert said(title, PLACE, "Type: minecraft:water") is None
 
 
@@ -230,7 +230,7 @@ def test_the_box_of_something_else_is_no_block(title: str) -> None:
         (("Position", PLACE, KIND), "belongs to can't be seen"),
     ],
 )
-def test_a_box_that_is_not_sure_is_unreadable(texts: tuple[str, ...], reason: str) -> None:
+def test_an_incomplete_or_implausible_box_is_unreadable(texts: tuple[str, ...], reason: str) -> None:
     with pytest.raises(Unreadable, match=reason):
         said(*texts)
 
@@ -240,6 +240,6 @@ def test_a_type_whose_end_may_be_covered_is_unreadable() -> None:
         said(TITLE, PLACE, KIND, whole=False)
 
 
-def test_full_columns_leave_it_open_whether_a_block_is_looked_at() -> None:
+def test_full_columns_without_a_box_are_unreadable() -> None:
     with pytest.raises(Unreadable, match="both columns of the debug screen are full"):
         said("Position", is_covered=True)

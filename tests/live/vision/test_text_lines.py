@@ -65,13 +65,13 @@ def test_a_line_is_read_from_its_start_and_from_its_end(text: str, overlay: Over
     assert line_up_to(grid(frame), FONT, overlay, (ROW, line.end)) == line
 
 
-def test_where_text_stands_is_found() -> None:
+def test_positions_of_finds_a_text_within_a_line() -> None:
     found = positions_of(grid(painted("Targeted Block")), FONT, "Block")
     assert found == [(ROW, START + len(FONT.columns("Targeted ")))]
 
 
 @pytest.mark.parametrize(("start", "is_left"), [(149, True), (150, False)])
-def test_a_line_that_begins_in_the_first_quarter_stands_in_the_left_column(start: int, is_left: bool) -> None:
+def test_a_line_that_begins_in_the_windows_first_quarter_is_in_the_left_column(start: int, is_left: bool) -> None:
     frame = painted("abc", start=start)
     assert line_from(grid(frame), FONT, DRAWN, (ROW, start)).is_left is is_left
     line = line_up_to(grid(frame), FONT, DRAWN, (ROW, start + wide("abc") - 1))
@@ -90,13 +90,13 @@ def test_three_spaces_are_read_and_four_end_the_line() -> None:
     assert read(painted("a    b")).text == "a"
 
 
-def test_what_stands_behind_the_box_is_not_read() -> None:
+def test_text_behind_the_box_is_not_read() -> None:
     frame = painted("abc")
     ink(frame, "d", START + len(FONT.columns("abc")) + 8, DRAWN.colour)
     assert read(frame).text == "abc"
 
 
-def test_behind_the_edge_that_text_is_aligned_at_nothing_is_read() -> None:
+def test_a_line_is_read_only_up_to_the_edge_that_it_is_aligned_at() -> None:
     frame = painted("abc d")
     end = START + wide("abc") - 1
     assert read(frame, edge=end).text == "abc"
@@ -105,7 +105,7 @@ def test_behind_the_edge_that_text_is_aligned_at_nothing_is_read() -> None:
     assert read(frame, edge=START + wide("abc d") - 1).text == "abc d"
 
 
-def test_an_edge_in_the_middle_of_a_glyph_is_no_end() -> None:
+def test_an_edge_in_the_middle_of_a_glyph_is_ignored() -> None:
     assert read(painted("abc"), edge=START + wide("ab") + 2).text == "abc"
 
 
@@ -137,19 +137,19 @@ def test_a_value_in_its_own_colour_is_read_from_its_end(colour: tuple[int, int, 
 
 
 @pytest.mark.parametrize("off", [-3, -1, 1])
-def test_without_its_last_ink_in_that_column_there_is_no_line(off: int) -> None:
+def test_line_up_to_gives_none_unless_the_last_ink_is_in_the_given_column(off: int) -> None:
     end = START + wide("abi") - 1  # an i is one column wide
     assert line_up_to(grid(painted("abi")), FONT, DRAWN, (ROW, end + off)) is None
 
 
 @pytest.mark.parametrize("row", [-1, 13, 20])
-def test_rows_outside_the_frame_hold_no_line(row: int) -> None:
+def test_no_line_is_found_in_rows_outside_the_frame(row: int) -> None:
     frame = painted("abc")
     assert line_up_to(grid(frame), FONT, DRAWN, (row, START + wide("abc") - 1)) is None
     assert not is_text(grid(frame), FONT, DRAWN, (row, START))
 
 
-def test_a_line_up_to_its_end_begins_behind_a_wide_gap() -> None:
+def test_line_up_to_begins_behind_a_wide_gap() -> None:
     frame = painted("far      near")
     line = line_up_to(grid(frame), FONT, DRAWN, (ROW, START + wide("far      near") - 1))
     assert line is not None
@@ -158,11 +158,11 @@ def test_a_line_up_to_its_end_begins_behind_a_wide_gap() -> None:
 
 
 @pytest.mark.parametrize(("text", "is_one"), [("abc", True), ("abcdefghij", True), ("ab", False), ("", False)])
-def test_three_letters_are_text(text: str, is_one: bool) -> None:
+def test_three_letters_or_more_count_as_text(text: str, is_one: bool) -> None:
     assert is_text(grid(painted(text)), FONT, DRAWN, (ROW, START)) is is_one
 
 
-def test_three_letters_with_an_unknown_one_are_no_text() -> None:
+def test_three_letters_with_an_unknown_one_do_not_count_as_text() -> None:
     frame = painted("abc")
     frame[ROW : ROW + 8, START + 1] = 224
     assert not is_text(grid(frame), FONT, DRAWN, (ROW, START))
@@ -179,7 +179,7 @@ def test_a_line_with_something_over_its_last_columns_is_not_whole(overlay: Overl
     assert (line.text, line.whole) == ("abcd", False)
 
 
-def test_over_a_world_as_grey_as_the_box_no_end_is_seen_and_none_is_needed() -> None:
+def test_a_line_over_a_world_as_grey_as_its_box_is_whole() -> None:
     for overlay in (DRAWN, STANDIN_DRAWN):
         grey = overlay.layout.box.grey
         assert read(painted("abc", overlay, ground=grey), overlay).whole
@@ -193,7 +193,7 @@ def test_over_a_world_as_grey_as_the_box_no_end_is_seen_and_none_is_needed() -> 
     ("ground", "box", "is_whole"),
     [(102, 100, False), (103, 100, True), (98, 100, False), (85, 85, True), (86, 86, False)],
 )
-def test_a_boxs_end_is_a_step_of_more_than_2_greys_or_lies_in_a_world_within_5_of_its_grey(
+def test_a_line_is_whole_if_its_box_ends_in_a_step_of_3_greys_or_in_its_own_grey(
     ground: int, box: int, is_whole: bool
 ) -> None:
     frame = painted("abc", ground=ground)
@@ -208,13 +208,13 @@ def test_ink_is_within_4_of_its_colour_in_every_channel() -> None:
     assert ink_of(row, (224, 224, 224), (219, 224, 230)).tolist() == [[255, 255, 0, 0, 0]]
 
 
-def test_a_columns_bits_are_its_dots_from_above() -> None:
+def test_the_lowest_bit_of_a_column_is_its_uppermost_dot() -> None:
     mask = np.zeros((8, 3), np.uint8)
     mask[0, 0] = mask[7, 1] = mask[1, 1] = 255
     assert columns_of(mask) == bytes((1, 130, 0))
 
 
-def test_decoding_gives_the_text_and_the_column_of_its_last_ink() -> None:
+def test_decode_returns_the_text_and_the_column_of_its_last_ink() -> None:
     assert decode(FONT.columns("ab c"), FONT) == ("ab c", wide("ab c") - 1)
     assert decode(b"\0\0\0", FONT) == ("", -1)
     assert decode(b"", FONT) == ("", -1)

@@ -43,7 +43,7 @@ def test_the_region_begins_at_the_first_letter_and_ends_with_the_hotbar() -> Non
     assert (region.top, region.height) == ((240 - 22) * 2, 21 * 2)
 
 
-def test_a_window_that_cuts_its_last_dot_has_the_same_rows() -> None:
+def test_a_window_that_cuts_its_last_dot_has_all_21_rows_of_dots() -> None:
     region = bottom_region((1920, 1057), 4)
     frame = np.zeros((region.height, region.width, 3), np.uint8)
     assert region.top + region.height <= 1057
@@ -74,7 +74,7 @@ def test_text_may_cover_the_hotbars_left_part(covered: int, look: HotbarLook | N
     assert hotbar_look(drawn, GUI_HEIGHT) == look
 
 
-def test_behind_the_death_screen_the_hotbar_is_red_by_its_height() -> None:
+def test_a_hotbar_reddened_by_its_height_looks_like_death() -> None:
     drawn = dots()
     for row, grey in ((0, 0), (1, 0x93)):
         down = (GUI_HEIGHT - 22 + row + 0.5) / GUI_HEIGHT
@@ -92,7 +92,7 @@ def test_a_darkened_hotbar_is_not_clear(share: float, over: int) -> None:
     assert hotbar_look(drawn, GUI_HEIGHT) != "clear"
 
 
-def test_the_first_letters_dots_are_those_of_the_line_being_typed() -> None:
+def test_typed_dots_are_the_first_letter_of_the_typed_line() -> None:
     drawn = np.zeros((21, 300, 3), np.uint8)
     drawn[10, 0] = 224
     assert typed_dots(drawn).shape == (9, 8, 3)
@@ -115,12 +115,12 @@ def test_the_typed_line_stands_12_dots_above_the_lower_edge_and_4_from_either_si
     assert typed_line_region((854, 480), 2, columns=8) == Region(8, 456, 16, 18)
 
 
-def test_where_the_last_dots_are_cut_the_typed_line_stands_as_the_game_counts_them() -> None:
+def test_the_typed_lines_place_is_rounded_as_in_the_game_in_a_window_with_a_cut_dot() -> None:
     # 241 rows at scale 2 are 121 dots: the line begins 109 dots down.
     assert typed_line_region((640, 241), 2) == Region(8, 218, 624, 18)
 
 
-def test_of_each_dot_the_middle_pixel_counts() -> None:
+def test_typed_line_dots_takes_the_middle_pixel_of_each_dot() -> None:
     frame = np.zeros((27, 6, 3), np.uint8)
     frame[1, 1] = frame[25, 4] = 9
     dots = typed_line_dots(frame, 3)
@@ -133,24 +133,24 @@ def test_a_shadowed_letter_of_any_of_its_colours_begins_a_line(colour: tuple[int
     assert begins_a_line(painted("/tp", colour)[:, :FIRST_COLUMNS], FONT)
 
 
-def test_letters_of_another_colour_begin_no_line() -> None:
+def test_letters_of_another_colour_do_not_begin_a_line() -> None:
     assert not begins_a_line(painted("/tp", (224, 224, 170))[:, :FIRST_COLUMNS], FONT)
 
 
-def test_ink_without_its_shadow_begins_no_line() -> None:
+def test_letters_without_a_shadow_do_not_begin_a_line() -> None:
     dots = painted("/tp")
     dots[(dots == 56).all(2)] = 40
     assert not begins_a_line(dots[:, :FIRST_COLUMNS], FONT)
 
 
-def test_shadowed_specks_that_are_no_letter_begin_no_line() -> None:
+def test_shadowed_specks_do_not_begin_a_line() -> None:
     dots = np.full((9, FIRST_COLUMNS, 3), 40, np.uint8)
     for row, column in ((1, 1), (3, 1), (5, 3), (6, 5)):
         dots[row, column], dots[row + 1, column + 1] = 224, 56
     assert not begins_a_line(dots, FONT)
 
 
-def test_an_empty_line_is_not_the_beginning_of_a_line() -> None:
+def test_an_empty_line_does_not_begin_a_line() -> None:
     assert not begins_a_line(painted("")[:, :FIRST_COLUMNS], FONT)
 
 
@@ -160,7 +160,7 @@ def test_a_line_reads_as_its_text_with_its_cursor_or_without(shown: str) -> None
 
 
 @pytest.mark.parametrize("shown", ["/tp 1 2 34", "/tp 1 2", "tp 1 2 3", "", "/tp 1 2 3        ."])
-def test_a_line_reads_as_no_other_text(shown: str) -> None:
+def test_a_line_does_not_read_as_another_text(shown: str) -> None:
     assert not reads_as(painted(shown), "/tp 1 2 3", FONT)
 
 
@@ -170,7 +170,7 @@ def test_an_empty_line_reads_as_nothing_typed() -> None:
     assert not reads_as(painted("t"), "", FONT)
 
 
-def test_of_a_line_too_long_its_end_is_enough_where_it_fills_the_line() -> None:
+def test_the_visible_end_of_a_too_long_line_reads_as_the_line() -> None:
     text = "/fill 100 200 300 minecraft:stone"
     end = text[-14:]
     wide = len(FONT.columns(end).rstrip(b"\0"))
@@ -180,7 +180,7 @@ def test_of_a_line_too_long_its_end_is_enough_where_it_fills_the_line() -> None:
     assert not reads_as(painted(end[:-1], columns=wide), text, FONT)
 
 
-def test_of_a_line_that_would_end_at_the_very_edge_the_first_letter_may_be_gone() -> None:
+def test_a_line_that_exactly_fits_may_lack_its_first_letter() -> None:
     # The game counts the free column behind the last letter too, so such a line is too long for it.
     text = "/fill 100 200 300 minecraft:stone"
     wide = len(FONT.columns(f"{text}_").rstrip(b"\0"))

@@ -1,4 +1,4 @@
-"""What changes in the middle of a run: the window's size, a scale, a screen that opens. Nothing wrong is done then."""
+"""Changes in the middle of a run: the window's size, a scale, a screen that opens. Nothing wrong is done then."""
 
 import dataclasses
 from collections.abc import Callable
@@ -89,9 +89,7 @@ def running(version: str, *, is_scale_named: bool = False) -> Run:
     [{"scale": 1}, {"scale": 4}, {"debug": 1}, {"debug": -1}, {"size": (1366, 900)}, {"size": (1024, 640)}],
     ids=str,
 )
-def test_a_scale_or_a_size_that_changes_is_seen_and_play_goes_on(
-    version: str, in_s: float, change: dict[str, int]
-) -> None:
+def test_play_goes_on_after_a_change_of_scale_or_window_size(version: str, in_s: float, change: dict[str, int]) -> None:
     run = running(version)
     before = run.client.scales, run.client.window.size
     run.in_s(in_s, lambda: run.change(**change))  # type: ignore[arg-type]  # each by its name
@@ -105,7 +103,7 @@ def test_a_scale_or_a_size_that_changes_is_seen_and_play_goes_on(
 
 
 @pytest.mark.parametrize("version", VERSIONS)
-def test_a_scale_other_than_the_profiles_is_a_one_line_error_that_says_so(version: str) -> None:
+def test_a_scale_that_differs_from_the_profiles_is_an_error_that_says_how_to_correct_it(version: str) -> None:
     run = running(version, is_scale_named=True)
     debug = run.client.scales.debug
     run.in_s(0.1, lambda: run.change(scale=1))
@@ -117,7 +115,7 @@ def test_a_scale_other_than_the_profiles_is_a_one_line_error_that_says_so(versio
 
 
 @pytest.mark.parametrize("version", ["1.20.1", "26.4"])
-def test_a_run_whose_window_was_resized_is_recorded_and_read_alike(version: str, tmp_path: Path) -> None:
+def test_a_recording_with_a_resized_window_is_replayed_without_differences(version: str, tmp_path: Path) -> None:
     client = VirtualClient(version=version, seed=2)
     client.mishaps.plan("resized_window", 2.5)
     size = client.window.size
@@ -130,7 +128,7 @@ def test_a_run_whose_window_was_resized_is_recorded_and_read_alike(version: str,
 
 @pytest.mark.parametrize("version", VERSIONS)
 @pytest.mark.parametrize("screen", ["inventory", "chat", "pause"])
-def test_a_screen_that_opens_behind_the_look_that_confirms_gets_no_press(
+def test_a_screen_that_opens_just_after_the_confirming_look_gets_no_press(
     version: str, screen: ScreenName, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     run = running(version)
@@ -163,7 +161,7 @@ def test_a_screen_that_opens_behind_the_look_that_confirms_gets_no_press(
 
 @pytest.mark.parametrize("version", VERSIONS)
 @pytest.mark.parametrize("screen", ["inventory", "chat", "pause"])
-def test_a_screen_that_opens_while_a_block_is_waited_for_gets_no_second_click(
+def test_a_screen_that_opens_while_the_body_waits_for_a_block_gets_no_click(
     version: str, screen: ScreenName, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     run = running(version)
@@ -188,7 +186,7 @@ def test_a_screen_that_opens_while_a_block_is_waited_for_gets_no_second_click(
 
 @pytest.mark.parametrize("version", VERSIONS)
 @pytest.mark.parametrize("look_s", [0.1, 1.5])
-def test_a_player_at_an_edge_sneaks_on_however_long_the_look_before_the_walk_takes(version: str, look_s: float) -> None:
+def test_a_player_at_an_edge_keeps_sneaking_during_a_slow_look(version: str, look_s: float) -> None:
     client = VirtualClient(version=version, seed=1, feet=(0.5, 64.0, 0.9))
     for z in range(1, 5):
         client.realm.world.put((0, 63, z), "air")

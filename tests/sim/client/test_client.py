@@ -31,7 +31,7 @@ def click_button(client: VirtualClient, label: str) -> None:
     click(client, *found.middle)
 
 
-def test_the_clients_devices_are_those_of_the_protocols() -> None:
+def test_the_clients_devices_fit_the_device_protocols() -> None:
     client = VirtualClient()
     display: Display = client.display
     keyboard: Keyboard = client.keyboard
@@ -53,7 +53,7 @@ def test_the_title_says_the_version_and_since_1_15_the_state(version: str, title
 
 
 @given(st.integers(0, 1000), st.integers(1, 12))
-def test_a_hold_of_so_many_ticks_gives_as_many_or_one_more_or_less(seed: int, held: int) -> None:
+def test_a_hold_is_felt_for_its_ticks_or_one_more_or_less(seed: int, held: int) -> None:
     client = VirtualClient(seed=seed)
     client.clock.sleep(0.1)
     client.keyboard.press("w")
@@ -64,7 +64,7 @@ def test_a_hold_of_so_many_ticks_gives_as_many_or_one_more_or_less(seed: int, he
     assert any(way == pytest.approx(displacement(ticks, "walk"), abs=1e-6) for ticks in (held - 1, held, held + 1))
 
 
-def test_at_ten_frames_a_second_a_key_is_felt_by_two_ticks_at_a_time() -> None:
+def test_a_short_hold_at_ten_frames_a_second_is_felt_for_none_or_two_ticks() -> None:
     client = VirtualClient(fps=10.0, input_latency_s=(0.0, 0.0))
     for _ in range(8):
         client.clock.sleep(0.5)
@@ -78,7 +78,7 @@ def test_at_ten_frames_a_second_a_key_is_felt_by_two_ticks_at_a_time() -> None:
 
 
 @pytest.mark.parametrize("fps", [10.0, 20.0, 30.0])
-def test_a_key_that_goes_down_and_up_between_two_frames_moves_nobody(fps: float) -> None:
+def test_a_key_pressed_and_released_between_two_frames_does_not_move_the_player(fps: float) -> None:
     client = VirtualClient(fps=fps, input_latency_s=(0.001, 0.001))
     for _ in range(8):
         began = client.game.ticks
@@ -92,7 +92,7 @@ def test_a_key_that_goes_down_and_up_between_two_frames_moves_nobody(fps: float)
 
 
 @pytest.mark.parametrize(("fps", "steps"), [(10.0, {0, 2}), (20.0, {0, 1}), (60.0, {0, 1})])
-def test_ticks_come_with_the_frames_and_as_many_as_are_due(fps: float, steps: set[int]) -> None:
+def test_each_frame_runs_all_ticks_that_are_due(fps: float, steps: set[int]) -> None:
     client = VirtualClient(fps=fps)
     seen, ticks = set(), client.game.ticks
     for _ in range(4000):
@@ -140,7 +140,7 @@ def test_the_same_seed_and_the_same_events_give_the_same_pictures(
     assert np.array_equal(pictures[0], pictures[1])
 
 
-def test_a_picture_is_ten_to_thirty_milliseconds_and_a_frame_old() -> None:
+def test_a_picture_is_at_most_30_ms_and_a_frame_old() -> None:
     for seed in range(20):
         client = VirtualClient(seed=seed)
         client.clock.sleep(0.2)
@@ -186,7 +186,7 @@ def test_a_region_is_that_part_of_the_whole_picture(left: int, top: int, width: 
     assert not part.size or np.array_equal(part, whole[rows, columns])
 
 
-def test_what_is_typed_before_the_chat_is_open_are_game_keys() -> None:
+def test_letters_typed_before_the_chat_is_open_count_as_game_keys() -> None:
     client = VirtualClient(seed=2)
     client.keyboard.press("t")
     client.keyboard.type("5")
@@ -207,7 +207,7 @@ def test_a_command_is_typed_sent_and_answered_on_the_screen() -> None:
     assert [line.text for line in client.game.view().chat] == ["Teleported Player to 5.500000, 64.000000, 7.500000"]
 
 
-def test_a_command_can_be_pasted_and_a_draft_replaced() -> None:
+def test_a_command_can_be_pasted_over_selected_text() -> None:
     client = VirtualClient()
     client.clipboard.write("/time set 1")
     tap(client, "/")
@@ -221,7 +221,7 @@ def test_a_command_can_be_pasted_and_a_draft_replaced() -> None:
     assert screen_of(client) == "world"
 
 
-def test_f3_toggles_when_it_is_let_go_unless_it_was_part_of_a_combination() -> None:
+def test_f3_toggles_on_release_unless_it_was_part_of_a_combination() -> None:
     client = VirtualClient(feet=(1.234, 64.0, -5.678), yaw=370.0, pitch=12.345)
     tap(client, "f3")
     assert not client.game.has_f3
@@ -235,7 +235,7 @@ def test_f3_toggles_when_it_is_let_go_unless_it_was_part_of_a_combination() -> N
     assert client.game.has_f3
 
 
-def test_1_12_and_reduced_debug_info_copy_no_location() -> None:
+def test_f3_and_c_copies_no_location_in_1_12_or_with_reduced_debug_info() -> None:
     old = VirtualClient(version="1.12.2")
     reduced = VirtualClient()
     reduced.realm.rules["reducedDebugInfo"] = "true"
@@ -264,7 +264,7 @@ def test_clicks_lead_from_the_world_to_the_title_and_back(version: str) -> None:
     assert read(client).problem is None
 
 
-def test_a_double_click_on_a_world_enters_it_and_so_does_its_picture() -> None:
+def test_a_world_is_entered_by_a_double_click_or_a_click_on_its_picture() -> None:
     for places in (((213, 60), (213, 60)), ((90, 60),)):
         client = VirtualClient()
         client.game.open("worlds")
@@ -301,7 +301,7 @@ def test_while_the_game_holds_the_mouse_moving_it_turns_the_view() -> None:
     assert client.pointer.position() == (10, 20)
 
 
-def test_what_is_pressed_behind_another_window_never_reaches_the_game() -> None:
+def test_a_key_pressed_behind_another_window_never_reaches_the_game() -> None:
     client = VirtualClient(options=GameOptions(pause_on_lost_focus=False))
     client.keyboard.press("w")
     client.clock.sleep(0.2)
@@ -320,7 +320,7 @@ def test_what_is_pressed_behind_another_window_never_reaches_the_game() -> None:
 
 
 @pytest.mark.parametrize(("seconds", "screen"), [(0.4, "world"), (0.6, "pause")])
-def test_half_a_second_without_the_focus_pauses(seconds: float, screen: str) -> None:
+def test_the_game_pauses_after_half_a_second_without_the_focus(seconds: float, screen: str) -> None:
     client = VirtualClient()
     client.set_front(is_in_front=False)
     client.clock.sleep(seconds)
@@ -354,7 +354,7 @@ def test_a_world_folder_is_written_on_leaving_and_read_on_entering(tmp_path: Pat
     assert other.realm.rules == client.realm.rules
 
 
-def test_the_oracle_says_the_true_cell_and_the_blocks_in_the_arena() -> None:
+def test_the_client_knows_the_true_cell_and_the_blocks_in_the_arena() -> None:
     client = VirtualClient()
     arena = arena_of(client, "west")
     client.realm.player.go_to(arena.centre_of((3, 9)))
@@ -365,7 +365,7 @@ def test_the_oracle_says_the_true_cell_and_the_blocks_in_the_arena() -> None:
     assert len(client.built) == 2
 
 
-def test_auto_is_the_largest_scale_that_fits_and_none_is_larger() -> None:
+def test_the_automatic_gui_scale_is_the_largest_that_fits_and_limits_all_others() -> None:
     assert [gui_scale((854, 480), wanted) for wanted in range(5)] == [2, 1, 2, 2, 2]
     assert gui_scale((1920, 1080), 0) == 4
     assert gui_scale((300, 200), 0) == 1
@@ -402,7 +402,7 @@ def test_settings_are_taken_by_name_and_never_change() -> None:
         VirtualClient(colour="red")
 
 
-def test_a_menu_state_without_a_menu_is_read_as_no_debug_screen() -> None:
+def test_the_title_screen_is_read_as_having_no_debug_screen() -> None:
     client = VirtualClient()
     client.game.open("title")
     client.clock.sleep(0.2)

@@ -1,4 +1,4 @@
-"""What is read in the virtual client's window: the chat's line, menus, and the last frames."""
+"""Reading the virtual client's window: the chat's line, menus, and the last frames."""
 
 from pathlib import Path
 
@@ -35,7 +35,7 @@ def _connection(client: VirtualClient) -> GameConnection:
 
 @pytest.mark.parametrize("version", ["1.12.2", "1.20.1"])
 @pytest.mark.parametrize("scale", [1, 2, 3, 4])
-def test_the_chats_line_is_seen_with_what_is_typed(version: str, scale: int) -> None:
+def test_the_open_chat_and_its_exact_text_are_seen(version: str, scale: int) -> None:
     client = VirtualClient(version=version, size=(1366, 768) if scale < 4 else (1920, 1080), scale=scale)
     screen = _screen(client)
     assert not screen.is_chat_open()
@@ -52,7 +52,7 @@ def test_the_chats_line_is_seen_with_what_is_typed(version: str, scale: int) -> 
 
 
 @pytest.mark.parametrize("width", [640, 661, 689, 717, 731, 759, 815, 857, 899, 913])
-def test_a_line_that_is_about_as_long_as_the_window_is_wide_is_seen_at_any_width(width: int) -> None:
+def test_a_line_nearly_as_long_as_the_chat_is_seen_at_any_window_width(width: int) -> None:
     client = VirtualClient(size=(width, 480))
     screen = _screen(client)
     client.game.open("chat")
@@ -65,7 +65,7 @@ def test_a_line_that_is_about_as_long_as_the_window_is_wide_is_seen_at_any_width
     assert not (is_whole and screen.is_typed(line)), "a first letter that was lost is noticed wherever it would be seen"
 
 
-def test_the_open_chat_is_seen_to_be_empty_whether_its_cursor_is_there_or_not() -> None:
+def test_an_open_chat_is_seen_to_be_empty_until_a_letter_is_typed() -> None:
     client = VirtualClient(world="dark")
     screen = _screen(client)
     client.game.open("chat")
@@ -76,7 +76,7 @@ def test_the_open_chat_is_seen_to_be_empty_whether_its_cursor_is_there_or_not() 
     assert not screen.is_typed("")
 
 
-def test_of_a_line_that_is_too_long_its_end_is_seen() -> None:
+def test_a_too_long_line_is_recognised_by_its_visible_end() -> None:
     client = VirtualClient()
     screen = _screen(client)
     client.game.open("chat")
@@ -93,7 +93,7 @@ def test_no_world_is_taken_for_an_open_chat(world: str) -> None:
         assert not _screen(VirtualClient(world=world, seed=seed, pitch=65.0)).is_chat_open()
 
 
-def test_a_letter_that_is_lost_keeps_the_line_from_being_sent() -> None:
+def test_a_line_that_lost_a_letter_is_not_sent() -> None:
     client = VirtualClient()
     connection = _connection(client)
     connection.controller.confirm_screen("world")
@@ -105,7 +105,7 @@ def test_a_letter_that_is_lost_keeps_the_line_from_being_sent() -> None:
 
 @pytest.mark.parametrize("scale", [1, 2, 3, 4, 5, 6])
 @pytest.mark.parametrize("draft", ["/tp @s 1 2 3", "hello", "W", "~@#", "it"])
-def test_a_draft_is_an_open_chat_and_is_deleted_before_a_line_is_typed(draft: str, scale: int) -> None:
+def test_a_draft_is_deleted_before_a_line_is_typed(draft: str, scale: int) -> None:
     client = VirtualClient(version="26.1", size=(320 * scale + 7, 240 * scale + 3), scale=scale, world="bright")
     client.game.chat.draft = draft
     client.clock.sleep(0.2)
@@ -118,7 +118,7 @@ def test_a_draft_is_an_open_chat_and_is_deleted_before_a_line_is_typed(draft: st
 
 
 @pytest.mark.parametrize("scale", range(1, 9))
-def test_whatever_letter_a_draft_begins_with_it_is_an_open_chat(scale: int) -> None:
+def test_a_chat_with_a_draft_is_seen_to_be_open_whichever_letter_it_begins_with(scale: int) -> None:
     client = VirtualClient(version="26.1", size=(320 * scale + 7, 240 * scale + 3), scale=scale, world="dark")
     screen, letters = _screen(client), FONT.glyphs.keys() - {"."}
     for letter in letters:
@@ -130,7 +130,7 @@ def test_whatever_letter_a_draft_begins_with_it_is_an_open_chat(scale: int) -> N
         client.game.open("world")
 
 
-def test_a_line_on_a_ground_too_light_to_be_read_is_not_sent_and_the_error_names_the_option() -> None:
+def test_a_line_on_a_too_light_ground_is_not_sent_and_the_error_names_the_option() -> None:
     options = GameOptions(text_background_opacity=0.0, background_for_chat_only=False)
     client = VirtualClient(version="26.1", world="bright", options=options)
     client.clock.sleep(0.2)
@@ -141,7 +141,7 @@ def test_a_line_on_a_ground_too_light_to_be_read_is_not_sent_and_the_error_names
     assert (client.game.screen, client.realm.day_time, client.window.down) == ("world", 6000, set())
 
 
-def test_where_the_background_is_of_the_chat_alone_its_opacity_keeps_nothing_from_being_read() -> None:
+def test_a_transparent_background_of_the_chat_alone_does_not_hinder_reading() -> None:
     client = VirtualClient(version="26.1", world="bright", options=GameOptions(text_background_opacity=0.0))
     client.clock.sleep(0.2)
     connection = _connection(client)
@@ -152,13 +152,13 @@ def test_where_the_background_is_of_the_chat_alone_its_opacity_keeps_nothing_fro
 
 
 class ElsewhereScreen(WindowScreen):
-    """What reads a game that draws its chat where the game itself doesn't."""
+    """A screen that never sees the chat, as where a game draws it elsewhere."""
 
     def is_chat_open(self) -> bool:
         return False
 
 
-def test_a_chat_that_is_drawn_elsewhere_is_closed_and_the_error_names_what_to_set() -> None:
+def test_a_chat_drawn_elsewhere_is_closed_and_the_error_names_the_key_to_set() -> None:
     client = VirtualClient()
     client.clock.sleep(0.2)
     connection = _connection(client).with_screen(ElsewhereScreen(client.display, FONT))
@@ -169,7 +169,7 @@ def test_a_chat_that_is_drawn_elsewhere_is_closed_and_the_error_names_what_to_se
     assert (client.realm.day_time, client.window.down) == (6000, set())
 
 
-def test_where_no_chat_opened_the_menu_that_esc_opens_is_closed_again() -> None:
+def test_a_failed_chat_closes_the_menu_that_its_esc_opened() -> None:
     client = VirtualClient()
     client.clock.sleep(0.2)
     connection = _connection(client)
@@ -182,7 +182,7 @@ def test_where_no_chat_opened_the_menu_that_esc_opens_is_closed_again() -> None:
 
 @pytest.mark.parametrize("version", ["1.12.2", "1.16.5", "1.20.1", "1.21.9"])
 @pytest.mark.parametrize("name", ["chat", "pause", "death", "disconnected", "servers", "title", "worlds", "inventory"])
-def test_every_screen_leads_back_into_the_world(version: str, name: str) -> None:
+def test_recovery_leads_from_every_screen_back_into_the_world(version: str, name: str) -> None:
     client = VirtualClient(version=version)
     connection = _connection(client)
     if name == "disconnected":
@@ -207,13 +207,13 @@ def test_every_screen_leads_back_into_the_world(version: str, name: str) -> None
     assert client.window.down == set()
 
 
-def test_a_debug_screen_that_was_off_is_on_again() -> None:
+def test_recovery_switches_the_debug_screen_on_again() -> None:
     client = VirtualClient(has_f3=False)
     Recovery(Profile(), _connection(client)).recover()
     assert client.game.has_f3
 
 
-def test_recovery_gives_up_in_bounded_time_and_leaves_the_last_frames(
+def test_recovery_gives_up_within_a_minute_and_leaves_the_last_frames(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(recovery, "PATIENCE_S", 3.0)
@@ -253,7 +253,7 @@ def test_another_window_is_never_pictured(tmp_path: Path) -> None:
     assert last.save() == []
 
 
-def test_a_reset_of_a_game_that_was_thrown_out_of_its_world_comes_back() -> None:
+def test_a_reset_leads_back_into_the_world_after_the_game_left_it() -> None:
     client = VirtualClient(seed=2)
     with play(client, LINE) as game:
         game.reset(1)

@@ -24,7 +24,7 @@ WITHOUT_LATIN_LETTERS = ("ru", "gr", "il")
 
 
 @pytest.mark.parametrize("layout", sorted({*LAYOUTS} - {*WITHOUT_LATIN_LETTERS}))
-def test_to_1_12_two_materials_are_built_with_under_every_latin_layout(layout: str) -> None:
+def test_up_to_1_12_two_materials_are_built_under_every_latin_layout(layout: str) -> None:
     client = VirtualClient(version=OLD, layout=layout, seed=2)
     with play(client, FLAG) as game:
         env = ArenaEnv(game, FLAG)
@@ -48,9 +48,7 @@ def test_from_1_13_on_blocks_are_built_under_any_layout(layout: str) -> None:
 
 
 @pytest.mark.parametrize("layout", WITHOUT_LATIN_LETTERS)
-def test_to_1_12_a_layout_without_latin_letters_is_a_one_line_error_and_nothing_is_pressed(
-    layout: str, tmp_path: Path
-) -> None:
+def test_up_to_1_12_a_layout_without_latin_letters_is_refused_before_any_press(layout: str, tmp_path: Path) -> None:
     client = VirtualClient(version=OLD, layout=layout)
     opened = open_live_game(LINE, opening_on(client, profile_in(tmp_path)))
     with pytest.raises(DesktopError, match="types no w, s, a, d, t: switch to English") as raised, opened:
@@ -60,7 +58,7 @@ def test_to_1_12_a_layout_without_latin_letters_is_a_one_line_error_and_nothing_
     assert client.window.strays == []
 
 
-def test_a_pack_that_hides_the_version_goes_by_the_profiles(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_profiles_version_decides_on_symbols_if_the_title_names_none(monkeypatch: pytest.MonkeyPatch) -> None:
     client = VirtualClient(version=OLD, layout="fr")
     monkeypatch.setattr(client.display, "title", lambda: "All the Blocks")
     prepare_keyboard(Profile(game=GameVersion(version=OLD)), client.devices)
@@ -69,7 +67,7 @@ def test_a_pack_that_hides_the_version_goes_by_the_profiles(monkeypatch: pytest.
     assert client.game.keys.physical == {"w"}
 
 
-def test_a_key_of_the_profiles_own_is_looked_for_too() -> None:
+def test_a_key_that_the_profile_changes_must_exist_in_the_layout() -> None:
     client = VirtualClient(version=OLD, layout="de")
     keys = KeysTable(chat="/")
     with pytest.raises(DesktopError, match="types no /:"):
@@ -77,7 +75,7 @@ def test_a_key_of_the_profiles_own_is_looked_for_too() -> None:
 
 
 @pytest.mark.parametrize("layout", LAYOUTS)
-def test_to_1_12_no_digit_comes_while_the_player_sneaks(layout: str) -> None:
+def test_up_to_1_12_tap_alone_presses_a_digit_without_the_sneak_key(layout: str) -> None:
     client = VirtualClient(version=OLD, layout=layout)
     if layout not in WITHOUT_LATIN_LETTERS:
         prepare_keyboard(Profile(), client.devices)

@@ -36,7 +36,7 @@ VERSIONS = ["1.8.9", "1.12.2", "1.14.4", "1.16.5", "1.18.2", "1.20.1", "1.21.8",
 
 
 class Walked(NamedTuple):
-    """What walking took: corrections, the median action in seconds, and the longest step of a tick in blocks."""
+    """The measures of a walk: corrections, the median action in seconds, and the longest step of a tick in blocks."""
 
     corrections: int
     median_s: float
@@ -48,7 +48,7 @@ def profile_for(client: VirtualClient) -> Profile:
 
 
 @pytest.mark.parametrize("version", ["1.12.2", "1.14.4", "1.20.1", "1.21.10", "26.1", "26.3", "26.4"])
-def test_blocks_are_built_where_they_were_asked_for(version: str) -> None:
+def test_blocks_are_built_at_the_requested_cells_in_every_version(version: str) -> None:
     client = VirtualClient(version=version)
     arena = arena_of(client)
     with play(client, LINE) as game:
@@ -82,7 +82,7 @@ def test_the_flag_is_built_of_two_materials(version: str) -> None:
 
 @pytest.mark.slow
 @pytest.mark.parametrize("facing", ["south", "west", "north", "east"])
-def test_materials_are_taken_in_hand_on_the_virtual_client(facing: Facing) -> None:
+def test_a_live_game_on_the_virtual_client_takes_the_given_materials(facing: Facing) -> None:
     client = VirtualClient(seed=3)
     with play(client, FLAG, facing) as game:
         arena = arena_of(client, facing)
@@ -96,7 +96,7 @@ def test_materials_are_taken_in_hand_on_the_virtual_client(facing: Facing) -> No
 
 @pytest.mark.slow
 @pytest.mark.parametrize("facing", ["south", "west", "north", "east"])
-def test_the_contract_of_every_game_holds_on_the_virtual_client(facing: Facing) -> None:
+def test_a_live_game_on_the_virtual_client_keeps_the_game_contract(facing: Facing) -> None:
     client = VirtualClient(seed=3)
     with play(client, LINE, facing) as game:
         arena = arena_of(client, facing)
@@ -104,7 +104,7 @@ def test_the_contract_of_every_game_holds_on_the_virtual_client(facing: Facing) 
 
 
 @pytest.mark.slow
-def test_whatever_happens_no_key_stays_down_or_goes_to_another_window() -> None:
+def test_no_key_stays_down_or_goes_to_another_window_despite_mishaps() -> None:
     for seed in range(8):
         client = VirtualClient(seed=seed)
         client.mishaps.every(0.3, KINDS)
@@ -132,13 +132,13 @@ def test_every_versions_screen_is_read_at_every_scale(version: str, size: tuple[
 
 
 @pytest.mark.parametrize("world", ["bright", "dark", "noise", "grey noise", "specks", SEEN])
-def test_the_world_behind_makes_no_difference(world: str) -> None:
+def test_the_target_block_is_read_over_any_world(world: str) -> None:
     client = VirtualClient(world=world, pitch=65.0)
     client.clock.sleep(0.2)
     assert read(client).target == Target((0, 63, 1), "minecraft:bedrock")
 
 
-def test_everything_is_read_while_the_world_that_is_seen_is_behind_it() -> None:
+def test_positions_and_targets_are_read_over_the_drawn_world() -> None:
     client = VirtualClient(world=SEEN)
     random = np.random.default_rng(0)
     arena = arena_of(client)
@@ -158,13 +158,13 @@ def test_everything_is_read_while_the_world_that_is_seen_is_behind_it() -> None:
 
 
 @pytest.mark.parametrize(("version", "entry"), [("1.21.10", "looking_at_block "), ("26.4", "looking_at_block_state ")])
-def test_a_block_entry_that_is_off_is_said_before_the_first_action(version: str, entry: str) -> None:
+def test_a_reset_names_the_block_entry_that_is_off(version: str, entry: str) -> None:
     client = VirtualClient(version=version, debug_entries=GAME_DEFAULT)
     with play(client, LINE) as game, pytest.raises(LiveError, match=f"set {entry}"):
         game.reset(LINE.best_material)
 
 
-def test_the_boxes_of_26_4_say_where_the_player_is_and_what_is_looked_at() -> None:
+def test_the_position_and_the_target_are_read_from_26_4s_boxes() -> None:
     client = VirtualClient(version="26.4", scale=1, pitch=65.0)
     client.clock.sleep(0.2)
     reading = read_debug_screen(client.display.grab(), FONT)
@@ -172,7 +172,7 @@ def test_the_boxes_of_26_4_say_where_the_player_is_and_what_is_looked_at() -> No
 
 
 @pytest.mark.slow
-def test_without_the_reader_the_client_runs_far_faster_than_the_game() -> None:
+def test_the_client_without_a_reader_runs_far_faster_than_real_time() -> None:
     client = VirtualClient()
     began, at = time.process_time(), client.clock.now()
     for index in range(400):
@@ -188,7 +188,7 @@ def test_without_the_reader_the_client_runs_far_faster_than_the_game() -> None:
 
 
 @pytest.mark.parametrize("version", ["1.12.2", "1.20.1"])
-def test_a_reset_mends_the_floor_that_a_click_has_broken(version: str) -> None:
+def test_a_reset_mends_a_floor_block_that_a_click_has_broken(version: str) -> None:
     client = VirtualClient(version=version)
     arena = arena_of(client).model_copy(update={"floor": client.settings.floor_block})
     with LiveGame(LINE, profile_for(client).model_copy(update={"arena": arena}), connection_to(client)) as game:
@@ -236,7 +236,7 @@ def test_walking_straight_on_never_sprints(monkeypatch: pytest.MonkeyPatch) -> N
 @pytest.mark.parametrize(
     ("latency_s", "median_s"), [((0.010, 0.030), 0.35), ((0.035, 0.060), 0.36), ((0.060, 0.090), 0.362)]
 )
-def test_waits_follow_the_profiles_latencies(
+def test_actions_stay_fast_at_every_capture_latency_of_the_profile(
     latency_s: tuple[float, float], median_s: float, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     client = VirtualClient(seed=2, capture_latency_s=latency_s)
@@ -247,7 +247,7 @@ def test_waits_follow_the_profiles_latencies(
 
 @pytest.mark.parametrize("fps", [10.0, 15.0, 20.0, 30.0, 144.0])
 @pytest.mark.parametrize("seed", range(3))
-def test_at_any_frame_rate_what_is_built_is_right(fps: float, seed: int) -> None:
+def test_the_line_is_built_right_at_any_frame_rate(fps: float, seed: int) -> None:
     client = VirtualClient(seed=seed, fps=fps)
     arena = arena_of(client)
     with play(client, LINE) as game:
@@ -271,7 +271,7 @@ def test_a_design_of_up_to_100_blocks_is_built_to_the_block(name: str) -> None:
     assert set(client.built.values()) == {"stone"}
 
 
-def test_a_look_that_is_too_old_on_a_busy_machine_is_taken_again(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_look_that_has_grown_too_old_is_taken_again(monkeypatch: pytest.MonkeyPatch) -> None:
     client = VirtualClient(seed=1)
     looks = itertools.count(1)
     with play(client, LINE) as game:

@@ -56,7 +56,7 @@ MET: Ticks = [(R, L), (RD, LD), (B, B), (BD, BD), (None, LD), (R, F), (F, FD), (
 """From neighbouring cells: into each other, onto each other, past each other's blocks."""
 
 
-def test_two_bodies_follow_the_rules_of_a_team() -> None:
+def test_a_live_team_of_two_keeps_the_team_contract() -> None:
     team = Team(LINE, ((7, 12), (8, 12)))
     with played(team) as (game, clients):
         check_team_game(game, team, MET, truth_of(clients))
@@ -82,7 +82,7 @@ def test_two_bodies_build_the_line_together() -> None:
     assert (terminated.tolist(), info["score"].tolist()) == ([True] * 2, [LINE.optimum] * 2)
 
 
-def test_a_policy_plays_in_two_bodies_as_in_the_simulator() -> None:
+def test_a_policy_plays_in_a_live_team_as_in_the_simulator() -> None:
     team = team_of(LINE, 2)
     builders = Builders(team.starts, "own")
     agent = Agent(AGENT_SPECS["nested"], [LINE], load_preset("paper"), seed=5, team=builders)
@@ -91,7 +91,7 @@ def test_a_policy_plays_in_two_bodies_as_in_the_simulator() -> None:
         assert play_greedily(TeamVectorEnv([game], team), [LINE], agent) == simulated
 
 
-def test_the_same_ticks_take_the_same_time_again() -> None:
+def test_repeated_ticks_of_a_team_take_the_same_game_time() -> None:
     def clock_after() -> float:
         team = Team(LINE, ((7, 12), (8, 12)))
         with played(team) as (game, clients):
@@ -103,7 +103,7 @@ def test_the_same_ticks_take_the_same_time_again() -> None:
     assert clock_after() == clock_after()
 
 
-def test_after_a_failed_tick_the_arena_must_be_reset_and_no_key_is_down() -> None:
+def test_a_failed_tick_leaves_no_key_down_and_requires_a_reset() -> None:
     team = Team(LINE, ((7, 12), (3, 3)))
     with played(team) as (game, clients):
         game.reset(STONE)
@@ -117,7 +117,7 @@ def test_after_a_failed_tick_the_arena_must_be_reset_and_no_key_is_down() -> Non
         assert game.reset(STONE) == team.starts
 
 
-def test_a_world_of_several_says_so_in_each_title_and_is_played_only_if_allowed() -> None:
+def test_a_shared_world_says_so_in_each_title_and_is_refused_by_default() -> None:
     first = VirtualClient()
     second = VirtualClient(joins=first)
     assert {first.display.title(), second.display.title()} == {"Minecraft 1.20.1 - Multiplayer (LAN)"}
@@ -125,6 +125,6 @@ def test_a_world_of_several_says_so_in_each_title_and_is_played_only_if_allowed(
         connection_to(first).check_single_player()
 
 
-def test_there_is_a_game_for_each_builder() -> None:
+def test_a_live_team_needs_a_running_game_for_each_builder() -> None:
     with pytest.raises(LiveError, match=r"^2 builders and 0 running games: open one for each$"):
         LiveTeam(Team(LINE, ((7, 12), (3, 3))), [])

@@ -26,7 +26,7 @@ def client_of(version: str, size: Size, *, pitch: float = 65.0, world: str = "no
 @pytest.mark.parametrize("pitch", [65.0, -80.0])
 @pytest.mark.parametrize("size", SIZES)
 @pytest.mark.parametrize("version", VERSIONS)
-def test_the_game_menus_buttons_are_found_where_they_are(version: str, size: Size, pitch: float, world: str) -> None:
+def test_the_game_menus_buttons_are_found_at_their_places(version: str, size: Size, pitch: float, world: str) -> None:
     client = client_of(version, size, pitch=pitch, world=world)
     client.game.open("pause")
     client.clock.sleep(0.2)
@@ -48,7 +48,7 @@ def test_the_game_menus_buttons_are_found_where_they_are(version: str, size: Siz
 
 @pytest.mark.parametrize("size", SIZES)
 @pytest.mark.parametrize("version", VERSIONS)
-def test_the_world_is_left_and_entered_again(version: str, size: Size) -> None:
+def test_recovery_leaves_the_world_and_enters_it_again(version: str, size: Size) -> None:
     client = client_of(version, size)
     way = Recovery(Profile(game=GameVersion(version=version)), connection_to(client))
     began = client.clock.now()
@@ -61,7 +61,7 @@ def test_the_world_is_left_and_entered_again(version: str, size: Size) -> None:
 
 @pytest.mark.parametrize("size", SIZES)
 @pytest.mark.parametrize("version", VERSIONS)
-def test_the_walk_records_all_points(version: str, size: Size) -> None:
+def test_a_menu_walk_records_all_five_points(version: str, size: Size) -> None:
     client = client_of(version, size)
     walk = MenuWalk(connection_to(client), Profile(game=GameVersion(version=version)), lambda _: None)
     walk.visit_pause_menu()

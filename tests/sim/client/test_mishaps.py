@@ -36,7 +36,7 @@ def test_a_screen_opens_over_the_world(kind: Kind) -> None:
     assert struck(kind).game.screen == kind
 
 
-def test_a_disconnect_shows_its_screen_and_the_title_says_no_world() -> None:
+def test_a_disconnect_shows_its_screen_and_removes_the_worlds_state_from_the_title() -> None:
     client = struck("disconnect")
     assert client.game.screen == "disconnected"
     assert client.display.title() == "Minecraft 1.20.1"
@@ -54,14 +54,14 @@ def test_a_frozen_picture_stays_while_the_game_goes_on() -> None:
     assert not np.array_equal(client.display.grab(), before)
 
 
-def test_a_black_picture_passes() -> None:
+def test_a_black_picture_lasts_half_a_second_at_most() -> None:
     client = struck("black_frame")
     assert not client.display.grab().any()
     client.clock.sleep(0.6)
     assert client.display.grab().any()
 
 
-def test_after_a_lag_the_ticks_are_caught_up_with_before_the_keys_are_let_go() -> None:
+def test_after_a_lag_missed_ticks_run_before_a_key_release_arrives() -> None:
     client = VirtualClient(seed=3)
     client.clock.sleep(0.1)
     client.keyboard.press("w")
@@ -76,7 +76,7 @@ def test_after_a_lag_the_ticks_are_caught_up_with_before_the_keys_are_let_go() -
     assert any(client.realm.player.feet[2] - 0.5 == pytest.approx(way, abs=1e-6) for way in ways)
 
 
-def test_of_a_long_lag_only_ten_ticks_are_caught_up_with() -> None:
+def test_only_ten_ticks_are_caught_up_with_after_a_long_lag() -> None:
     client = VirtualClient(seed=3)
     client.keyboard.press("w")
     client.clock.sleep(0.1)
@@ -86,7 +86,7 @@ def test_of_a_long_lag_only_ten_ticks_are_caught_up_with() -> None:
     assert client.game.ticks == before + 10
 
 
-def test_a_dropped_press_never_arrives() -> None:
+def test_a_dropped_key_press_never_arrives() -> None:
     client = struck("dropped_key")
     tap(client, "5")
     assert client.realm.player.slot == 0
@@ -94,7 +94,7 @@ def test_a_dropped_press_never_arrives() -> None:
     assert client.realm.player.slot == 4
 
 
-def test_a_dropped_release_leaves_the_key_down_for_the_game_only() -> None:
+def test_a_dropped_release_leaves_the_key_down_only_in_the_game() -> None:
     client = VirtualClient()
     client.keyboard.press("w")
     client.mishaps.plan("dropped_key")
@@ -107,7 +107,7 @@ def test_a_dropped_release_leaves_the_key_down_for_the_game_only() -> None:
     assert not client.game.keys.is_held("forward")
 
 
-def test_a_late_key_holds_up_those_behind_it() -> None:
+def test_a_late_key_delays_the_keys_after_it() -> None:
     client = struck("late_key")
     client.keyboard.type("57")
     client.clock.sleep(0.04)
@@ -116,7 +116,7 @@ def test_a_late_key_holds_up_those_behind_it() -> None:
     assert client.realm.player.slot == 6
 
 
-def test_the_debug_screen_is_switched_off() -> None:
+def test_a_mishap_switches_the_debug_screen_off() -> None:
     client = struck("f3_off")
     client.clock.sleep(0.2)
     assert read(client).problem is not None
@@ -124,7 +124,7 @@ def test_the_debug_screen_is_switched_off() -> None:
     assert read(client).problem is None
 
 
-def test_a_moved_window_takes_the_mouse_elsewhere_and_a_resized_one_has_another_size() -> None:
+def test_a_moved_window_shifts_the_mouse_position_and_a_resized_one_changes_its_pictures() -> None:
     moved = VirtualClient()
     tap(moved, "esc")
     moved.pointer.move(100, 100)
@@ -156,7 +156,7 @@ def test_a_placing_mishap_leaves_no_block(kind: Kind, most: int) -> None:
 
 
 @pytest.mark.parametrize("kind", KINDS)
-def test_outside_the_world_nothing_happens_in_it(kind: Kind) -> None:
+def test_no_mishap_leads_away_from_the_title_screen(kind: Kind) -> None:
     client = VirtualClient()
     client.game.open("title")
     client.mishaps.plan(kind)
@@ -237,7 +237,7 @@ def test_the_focus_comes_back_within_two_seconds() -> None:
     assert 0.2 <= seconds <= 2.0
 
 
-def test_a_window_gets_another_of_the_sizes() -> None:
+def test_a_resized_window_gets_any_of_the_other_sizes() -> None:
     assert set(target_of("resized_window").sizes) == set(SIZES[1:])
 
 
@@ -248,7 +248,7 @@ def test_a_window_is_moved_by_up_to_200_pixels_either_way() -> None:
     assert np.abs(shifts).max() <= 200
 
 
-def test_a_knock_has_one_strength_in_any_direction() -> None:
+def test_a_knock_pushes_the_player_with_a_fixed_strength() -> None:
     velocity = target_of("knocked_away", 1).game.realm.player.velocity
     assert np.hypot(velocity[0], velocity[2]) == pytest.approx(0.4)
     assert velocity[1] == pytest.approx(0.36 - 0.0784)
@@ -258,7 +258,7 @@ def test_keys_are_dropped_one_by_one() -> None:
     assert target_of("dropped_key", 3).window.to_drop == 3
 
 
-def test_with_a_rate_of_one_a_mishap_is_planned_within_the_time() -> None:
+def test_a_probability_of_one_always_plans_a_mishap_within_the_time() -> None:
     target = Target()
     mishaps = Mishaps(target, np.random.default_rng(0))
     planned = [mishaps.maybe(1.0, 0.5, ("lag", "f3_off")) for _ in range(50)]
@@ -270,7 +270,7 @@ def test_with_a_rate_of_one_a_mishap_is_planned_within_the_time() -> None:
     assert max(mishap.at for mishap in mishaps.happened) > 0.4
 
 
-def test_with_a_rate_of_zero_no_mishap_is_planned() -> None:
+def test_a_probability_of_zero_never_plans_a_mishap() -> None:
     target = Target()
     mishaps = Mishaps(target, np.random.default_rng(0))
     assert not any(mishaps.maybe(0.0, 0.5) for _ in range(50))
@@ -278,11 +278,11 @@ def test_with_a_rate_of_zero_no_mishap_is_planned() -> None:
     assert mishaps.happened == []
 
 
-def test_ghost_blocks_and_notices_come_only_where_they_are_asked_for() -> None:
+def test_ghost_blocks_and_notices_are_never_drawn_at_random() -> None:
     assert set(KINDS) - set(DRAWN) == {"ghost_block", "notices"}
 
 
-def test_the_first_of_many_mishaps_waits_for_its_time_too() -> None:
+def test_the_first_random_mishap_does_not_happen_at_once() -> None:
     target = Target()
     mishaps = Mishaps(target, np.random.default_rng(0))
     mishaps.every(0.01, ("lag",))
@@ -292,7 +292,7 @@ def test_the_first_of_many_mishaps_waits_for_its_time_too() -> None:
     assert 5 <= len(mishaps.happened) <= 40
 
 
-def test_notices_cover_the_upper_right_for_five_seconds_and_no_block_is_then_unread_not_wrong() -> None:
+def test_notices_make_the_debug_screen_unreadable_for_five_seconds() -> None:
     client = VirtualClient(pitch=65.0)
     client.clock.sleep(0.2)
     before = read(client)

@@ -56,7 +56,7 @@ def way_of(client: VirtualClient, points: ClickPoints) -> Recovery:
 
 @pytest.mark.parametrize("version", ["1.12.2", "1.16.5", "1.20.1", "1.21.9"])
 @pytest.mark.parametrize("name", ["pause", "death", "title", "worlds"])
-def test_every_screen_that_was_recorded_leads_back(version: str, name: ScreenName) -> None:
+def test_recovery_leads_back_from_every_screen_with_recorded_points(version: str, name: ScreenName) -> None:
     client = VirtualClient(version=version, words=SPANISH)
     way = way_of(client, points_of(client))
     if name == "death":
@@ -70,7 +70,7 @@ def test_every_screen_that_was_recorded_leads_back(version: str, name: ScreenNam
     assert (client.window.down, client.window.strays) == (set(), [])
 
 
-def test_the_world_is_left_by_points_too() -> None:
+def test_the_world_is_left_and_entered_by_recorded_points() -> None:
     client = VirtualClient(words=SPANISH)
     way = way_of(client, points_of(client))
     way.leave_world()
@@ -79,7 +79,7 @@ def test_the_world_is_left_by_points_too() -> None:
     assert way.screen_name() == "world"
 
 
-def test_without_points_the_title_is_unknown_and_nothing_on_it_is_clicked(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_title_screen_is_unknown_without_points_and_nothing_is_clicked(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(recovery, "PATIENCE_S", 8.0)
     client = VirtualClient(words=SPANISH)
     client.game.open("title")
@@ -101,7 +101,7 @@ def test_points_of_another_window_size_are_not_clicked(monkeypatch: pytest.Monke
     assert client.game.screen == "title"
 
 
-def test_what_was_recorded_in_english_does_not_fit_another_language(
+def test_points_recorded_in_english_do_not_match_menus_in_spanish(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(recovery, "PATIENCE_S", 8.0)
@@ -116,13 +116,13 @@ def test_what_was_recorded_in_english_does_not_fit_another_language(
     assert client.game.screen == "title"
 
 
-def test_the_windows_title_is_in_that_language_and_the_world_is_known_to_be_ones_own() -> None:
+def test_a_spanish_title_is_recognised_as_a_single_players_world() -> None:
     client = VirtualClient(words=SPANISH)
     assert client.display.title() == "Minecraft 1.20.1 - Un jugador"
     connection_to(client).check_single_player()
 
 
-def test_a_language_whose_word_is_not_known_is_refused() -> None:
+def test_a_title_with_an_unknown_word_for_singleplayer_is_refused() -> None:
     client = VirtualClient(words={**SPANISH, "Singleplayer": "Jokalari bakarra"})
     with pytest.raises(DesktopError, match="set the game's language to English"):
         connection_to(client).check_single_player()

@@ -27,7 +27,7 @@ class WayOutError(Exception):
 @given(
     mishaps, actions, st.sampled_from(["return", "error", "interrupt", "stop"]), st.floats(0.0, 5.0), st.integers(0, 99)
 )
-def test_no_key_is_left_down_and_none_goes_to_another_window(
+def test_no_key_is_left_down_or_sent_to_another_window_however_the_game_ends(
     planned: list[tuple[Kind, float]], chosen: list[Action], way_out: str, out_s: float, seed: int
 ) -> None:
     client = VirtualClient(seed=seed)
@@ -54,7 +54,7 @@ def test_no_key_is_left_down_and_none_goes_to_another_window(
 
 @pytest.mark.slow
 @given(mishaps, actions, st.integers(0, 99))
-def test_an_outcome_is_what_the_world_holds_whatever_happens(
+def test_every_outcome_agrees_with_the_world_despite_mishaps(
     planned: list[tuple[Kind, float]], chosen: list[Action], seed: int
 ) -> None:
     client = VirtualClient(seed=seed)
@@ -94,7 +94,7 @@ def test_a_screen_has_four_corners() -> None:
 
 
 @pytest.mark.parametrize("kind", KINDS)
-def test_after_every_mishap_a_reset_recovers(kind: Kind) -> None:
+def test_a_reset_recovers_after_every_kind_of_mishap(kind: Kind) -> None:
     client = VirtualClient(seed=4)
     arena = arena_of(client)
     with play(client, LINE) as game:

@@ -31,7 +31,7 @@ def titled(client: VirtualClient, monkeypatch: pytest.MonkeyPatch, title: str) -
 
 
 @pytest.mark.parametrize("screen", ["title", "worlds", "servers", "disconnected"])
-def test_after_leaving_a_server_nothing_on_these_screens_is_clicked(
+def test_recovery_clicks_nothing_on_menus_after_leaving_a_server(
     screen: ScreenName, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     client = VirtualClient()
@@ -46,7 +46,7 @@ def test_after_leaving_a_server_nothing_on_these_screens_is_clicked(
 
 
 @pytest.mark.parametrize("screen", ["pause", "chat", "death"])
-def test_on_a_server_recovery_from_other_screens_is_the_same(
+def test_recovery_leads_back_from_screens_within_a_servers_world(
     screen: ScreenName, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     client = VirtualClient()
@@ -64,7 +64,7 @@ def test_on_a_server_recovery_from_other_screens_is_the_same(
 @pytest.mark.parametrize(
     ("before", "after", "said"), [(SERVER, OWN, "was a server's, and is your own"), (OWN, SERVER, "is a server's now")]
 )
-def test_a_world_of_another_kind_than_before_is_not_the_one_that_was_left(
+def test_recovery_refuses_a_servers_world_after_an_own_one_and_the_reverse(
     before: str, after: str, said: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     client = VirtualClient()
@@ -76,7 +76,7 @@ def test_a_world_of_another_kind_than_before_is_not_the_one_that_was_left(
         way.recover()
 
 
-def test_a_servers_world_is_never_left(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_leave_world_refuses_to_leave_a_servers_world(monkeypatch: pytest.MonkeyPatch) -> None:
     client = VirtualClient()
     titled(client, monkeypatch, SERVER)
     with pytest.raises(LiveError, match="is not left, since nothing leads back"):
@@ -84,7 +84,7 @@ def test_a_servers_world_is_never_left(monkeypatch: pytest.MonkeyPatch) -> None:
     assert client.game.screen == "world"
 
 
-def test_after_a_disconnect_from_a_server_no_command_is_sent_anywhere(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_reset_types_no_command_after_a_disconnect_from_a_server(monkeypatch: pytest.MonkeyPatch) -> None:
     client = VirtualClient()
     titled(client, monkeypatch, SERVER)
     profile = Profile(game=GameVersion(version=client.settings.version), arena=arena_of(client))

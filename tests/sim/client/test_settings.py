@@ -17,7 +17,7 @@ from sim.client.settings import gui_scale
         ((300, 200), 2, 1),
     ],
 )
-def test_the_scale_is_the_largest_that_fits_and_at_most_the_wanted_one(
+def test_the_gui_scale_is_the_largest_that_fits_and_at_most_the_wanted_one(
     size: tuple[int, int], wanted: int, scale: int
 ) -> None:
     assert gui_scale(size, wanted) == scale

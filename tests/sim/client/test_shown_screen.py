@@ -1,4 +1,4 @@
-"""What lies over the world is never taken for it, in any version, window and pair of scales; nor the world for that."""
+"""Menus and the chat are never taken for the world, nor it for them, in any version, window and pair of scales."""
 
 import dataclasses
 
@@ -43,7 +43,7 @@ def _client(version: str, size: tuple[int, int], scale: int, debug_scale: int, w
     WORLDS,
     st.sampled_from(sorted(IN_WORLD)),
 )
-def test_only_the_world_is_taken_for_the_world(
+def test_no_other_screen_is_taken_for_the_world(
     version: str, size: tuple[int, int], scale: int, debug_scale: int, world: str, name: ScreenName
 ) -> None:
     client = _client(version, size, scale, debug_scale, world)
@@ -66,7 +66,9 @@ def test_only_the_world_is_taken_for_the_world(
 
 
 @given(st.sampled_from(VERSIONS), SIZES, st.integers(0, 6), st.integers(-1, 4))
-def test_both_scales_are_found(version: str, size: tuple[int, int], scale: int, debug_scale: int) -> None:
+def test_the_gui_scale_and_the_debug_scale_are_found(
+    version: str, size: tuple[int, int], scale: int, debug_scale: int
+) -> None:
     client = _client(version, size, scale, debug_scale, "noise")
     assert screen_of(client).seen_scales() == client.scales
 
@@ -74,9 +76,7 @@ def test_both_scales_are_found(version: str, size: tuple[int, int], scale: int, 
 @pytest.mark.parametrize("world", ["bright", "dark"])
 @pytest.mark.parametrize("words", ["Game Paused", "Spiel pausiert"])
 @pytest.mark.parametrize("version", VERSIONS)
-def test_a_pause_without_a_menu_is_ended_in_any_language_and_over_any_world(
-    version: str, words: str, world: str
-) -> None:
+def test_recovery_ends_a_pause_without_a_menu_in_any_language(version: str, words: str, world: str) -> None:
     translated = {"Game Paused": words, "Game paused": words}
     client = VirtualClient(version=version, scale=0, world=world, words=translated)
     client.clock.sleep(0.2)
@@ -89,7 +89,7 @@ def test_a_pause_without_a_menu_is_ended_in_any_language_and_over_any_world(
 
 
 @pytest.mark.parametrize("version", ["1.12.2", "1.20.1", "1.21.8"])
-def test_another_gui_scale_in_the_same_window_is_noticed_also_with_a_packs_hotbar(
+def test_a_changed_gui_scale_is_noticed_even_with_a_resource_packs_hotbar(
     version: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(gui_layers, "_HOTBAR_FRAME", PACK)
@@ -110,7 +110,7 @@ def test_another_gui_scale_in_the_same_window_is_noticed_also_with_a_packs_hotba
 
 @pytest.mark.parametrize("opacity", [0.1, 0.5, 1.0])
 @pytest.mark.parametrize("version", ["1.20.1", "1.21.9", "26.4"])
-def test_an_empty_chat_is_not_the_world_while_its_cursor_is_off(
+def test_an_empty_chat_without_its_cursor_is_not_taken_for_the_world(
     version: str, opacity: float, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     drawn = gui_layers.HudLayers._drawn_input
@@ -124,7 +124,7 @@ def test_an_empty_chat_is_not_the_world_while_its_cursor_is_off(
 
 
 @pytest.mark.parametrize("version", VERSIONS[4:])
-def test_a_hotbar_that_a_pack_draws_otherwise_is_named_as_the_cause_soon(
+def test_recovery_soon_names_a_resource_packs_hotbar_as_the_cause(
     version: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(gui_layers, "_HOTBAR_FRAME", PACK)
@@ -137,7 +137,7 @@ def test_a_hotbar_that_a_pack_draws_otherwise_is_named_as_the_cause_soon(
 
 
 @pytest.mark.parametrize("version", VERSIONS[4:])
-def test_a_hidden_hud_is_not_the_world(version: str) -> None:
+def test_a_world_with_a_hidden_hud_does_not_count_as_seen(version: str) -> None:
     client = _client(version, (854, 480), 0, 0, "noise")
     client.game.hides_hud = True
     client.clock.sleep(0.2)

@@ -39,7 +39,7 @@ def _game(client: VirtualClient, folder: Path) -> LiveGame:
 
 
 @pytest.mark.parametrize("version", ["1.12.2", "1.16.5", "1.20.1", "1.21.9"])
-def test_without_cheats_the_world_is_restored_by_clicks(version: str, tmp_path: Path) -> None:
+def test_a_reset_without_cheats_restores_the_world_by_clicks(version: str, tmp_path: Path) -> None:
     folder = tmp_path / "saves" / "arena"
     client = VirtualClient(version=version, has_cheats=False, world_folder=folder)
     client.clock.sleep(0.2)
@@ -54,7 +54,7 @@ def test_without_cheats_the_world_is_restored_by_clicks(version: str, tmp_path: 
     assert client.realm.day_time == 6000
 
 
-def test_a_world_without_the_marker_is_left_as_it_is(tmp_path: Path) -> None:
+def test_a_world_without_the_marker_file_is_left_as_it_is(tmp_path: Path) -> None:
     folder = tmp_path / "saves" / "arena"
     client = VirtualClient(has_cheats=False, world_folder=folder)
     client.clock.sleep(0.2)
@@ -67,7 +67,7 @@ def test_a_world_without_the_marker_is_left_as_it_is(tmp_path: Path) -> None:
     assert client.placed(arena_of(client)) == {(7, 14)}
 
 
-def test_a_game_that_others_may_share_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_reset_of_a_multiplayer_game_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
     client = VirtualClient()
     monkeypatch.setattr(client.display, "title", lambda: "Minecraft 1.20.1 - Multiplayer (3rd-party Server)")
     with (

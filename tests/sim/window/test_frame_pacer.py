@@ -28,7 +28,7 @@ def test_a_late_frame_does_not_hurry_the_next_ones() -> None:
     assert pacer.next_frame == pytest.approx(0.32)
 
 
-def test_of_a_long_stall_ten_ticks_are_made_up_for() -> None:
+def test_only_ten_ticks_are_made_up_for_after_a_long_stall() -> None:
     clock = VirtualClock(0.0)
     ticks: list[float] = []
     for number in range(100):
@@ -45,7 +45,7 @@ def game() -> VirtualGame:
     return VirtualGame(Realm(Edition("1.20.1"), VirtualWorld(64, "dirt"), Player((0.5, 64.0, 0.5))))
 
 
-def test_between_two_ticks_the_eye_moves_evenly() -> None:
+def test_the_eye_moves_evenly_between_two_ticks() -> None:
     played = game()
     eye = SmoothEye(played)
     played.tick()

@@ -14,7 +14,7 @@ def test_keys_are_named_as_in_profiles(number: int, name: str) -> None:
     assert PLACES[number] == name
 
 
-def test_every_name_is_one_that_a_profile_may_use() -> None:
+def test_every_key_name_may_be_used_in_a_profile() -> None:
     for name in PLACES.values():
         check_key(name)
     assert len(set(PLACES.values())) == len(PLACES)
@@ -39,5 +39,7 @@ def test_every_key_of_the_game_has_a_place() -> None:
         ("left.shift", None, True, "left.shift"),
     ],
 )
-def test_to_1_12_a_key_is_what_it_makes(place: str, made: str | None, has_shift: bool, key: str) -> None:
+def test_up_to_1_12_a_key_is_taken_by_the_symbol_that_it_makes(
+    place: str, made: str | None, has_shift: bool, key: str
+) -> None:
     assert symbol_at(place, made, has_shift=has_shift) == key

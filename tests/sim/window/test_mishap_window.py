@@ -31,7 +31,7 @@ def mishaps() -> tuple[NotedWindow, VirtualClient, Mishaps]:
     return window, client, Mishaps(MishapWindow(cast("GlfwWindow", window), client), np.random.default_rng(0))
 
 
-def test_what_the_desktop_does_is_done_to_the_real_window() -> None:
+def test_mishaps_of_the_desktop_are_done_to_the_real_window() -> None:
     window, client, planned = mishaps()
     for kind in ("resized_window", "moved_window", "lost_focus"):
         planned.plan(kind)
@@ -41,7 +41,7 @@ def test_what_the_desktop_does_is_done_to_the_real_window() -> None:
     assert client.window.size == (854, 480), "the window says its new size itself"
 
 
-def test_what_the_game_does_is_done_to_the_client() -> None:
+def test_mishaps_of_the_game_are_done_to_the_client() -> None:
     window, client, planned = mishaps()
     planned.plan("black_frame")
     client.clock.sleep(0.01)

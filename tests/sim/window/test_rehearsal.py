@@ -98,7 +98,7 @@ def played(display: dict[str, str], tmp_path: Path) -> Iterator[Played]:
         yield Played(rehearsal, connection)
 
 
-def test_its_text_is_that_of_the_game_to_the_dot(played: Played) -> None:
+def test_the_debug_screen_is_read_in_the_rehearsals_window(played: Played) -> None:
     for size in ((854, 480), (959, 717)):
         played.window.configure(width=size[0], height=size[1])
         played.display.sync()
@@ -127,7 +127,7 @@ def test_the_rehearsals_debug_screen_names_its_own_frames_and_size(tmp_path: Pat
             assert soon(is_said)
 
 
-def test_keys_are_places_whatever_the_layout(tmp_path: Path, window_programs: None) -> None:  # noqa: ARG001
+def test_keys_are_taken_by_their_places_under_any_layout(tmp_path: Path, window_programs: None) -> None:  # noqa: ARG001
     for layout in ("fr", "ru"):
         with (
             open_display(layout=layout) as env,
@@ -142,7 +142,7 @@ def test_keys_are_places_whatever_the_layout(tmp_path: Path, window_programs: No
             assert soon(lambda: rehearsal.truth.now()["keys_down"] == [])
 
 
-def test_to_1_12_keys_are_what_the_layout_makes(tmp_path: Path, window_programs: None) -> None:  # noqa: ARG001
+def test_up_to_1_12_keys_are_taken_by_what_the_layout_makes(tmp_path: Path, window_programs: None) -> None:  # noqa: ARG001
     with (
         open_display(layout="fr") as env,
         open_rehearsal(env, tmp_path, "--version", "1.12.2") as rehearsal,
@@ -165,7 +165,7 @@ def test_to_1_12_keys_are_what_the_layout_makes(tmp_path: Path, window_programs:
         assert are_down()
 
 
-def test_in_the_world_the_mouse_turns_the_view_and_in_a_menu_it_is_free(played: Played) -> None:
+def test_the_mouse_turns_the_view_in_the_world_and_moves_freely_in_a_menu(played: Played) -> None:
     truth = played.rehearsal.truth
     for _ in range(2):  # the first movement after the game has taken the mouse is lost
         xtest.fake_input(played.display, X.MotionNotify, 1, X.CurrentTime, X.NONE, 20, 0)
@@ -197,7 +197,7 @@ def test_a_rehearsal_ends_when_its_window_is_closed(played: Played) -> None:
     assert played.rehearsal.process.wait(SOON_S) == 0
 
 
-def test_a_rehearsal_ends_in_one_line_when_its_process_is_ended(played: Played) -> None:
+def test_a_terminated_rehearsal_says_in_one_line_that_it_stopped(played: Played) -> None:
     played.rehearsal.process.terminate()
     assert played.rehearsal.process.wait(SOON_S) == 128 + 15
     assert played.rehearsal.log.read_text().splitlines()[-1] == "mc-nested: stopped"
@@ -210,7 +210,7 @@ def test_a_second_rehearsal_window_is_refused(played: Played, tmp_path: Path) ->
         open_rehearsal(played.rehearsal.env, other).__enter__()
 
 
-def test_of_rehearsals_that_start_at_the_same_moment_one_opens(display: dict[str, str], tmp_path: Path) -> None:
+def test_only_one_of_two_rehearsals_started_at_the_same_moment_opens(display: dict[str, str], tmp_path: Path) -> None:
     env = {**display, "PYTHONPATH": str(ROOT)}
     command = [sys.executable, "-m", "mc_nested.cli", "rehearse"]
     both = [

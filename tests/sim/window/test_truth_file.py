@@ -6,7 +6,7 @@ from sim.client.game.realm import Stack
 from sim.window.rehearsal import TruthFile
 
 
-def test_the_truth_says_what_the_world_holds_and_where_the_player_is(tmp_path: Path) -> None:
+def test_the_truth_file_holds_the_blocks_the_player_and_the_screen(tmp_path: Path) -> None:
     client = VirtualClient(yaw=90.0, pitch=65.0)
     truth = TruthFile(tmp_path / "truth.json", client)
     client.realm.world.put((1, 64, 2), "stone")
@@ -23,7 +23,7 @@ def test_the_truth_says_what_the_world_holds_and_where_the_player_is(tmp_path: P
     assert (said["block_in_hand"], said["keys_down"], said["is_in_front"]) == ("oak_planks", ["w"], True)
 
 
-def test_the_truth_is_written_only_when_something_has_changed(tmp_path: Path) -> None:
+def test_the_truth_file_is_written_only_when_something_has_changed(tmp_path: Path) -> None:
     path = tmp_path / "truth.json"
     client = VirtualClient()
     truth = TruthFile(path, client)

@@ -21,7 +21,9 @@ def covered(rects: list[Rect]) -> np.ndarray[tuple[int, ...], np.dtype[np.int_]]
 
 
 @given(st.lists(st.tuples(SIDES, SIDES), max_size=6))
-def test_every_pixel_of_a_rectangle_is_covered_once_and_no_tile_without_one(sides: list[tuple[list[int], ...]]) -> None:
+def test_triangles_cover_each_pixel_of_the_rectangles_once_and_no_other_tile(
+    sides: list[tuple[list[int], ...]],
+) -> None:
     rects = [(x[0], y[0], x[1], y[1]) for x, y in sides]
     counts = covered(rects)
     wanted = np.zeros((SIZE[1], SIZE[0]), bool)
@@ -35,9 +37,9 @@ def test_every_pixel_of_a_rectangle_is_covered_once_and_no_tile_without_one(side
             assert counts[tile].any() == wanted[tile].any()
 
 
-def test_without_rectangles_nothing_is_covered() -> None:
+def test_no_triangles_are_made_without_rectangles() -> None:
     assert triangles([], SIZE).shape == (0, 2)
 
 
-def test_a_rectangle_over_the_whole_window_is_one_run_a_row() -> None:
+def test_a_rectangle_over_the_whole_window_needs_two_triangles_a_row() -> None:
     assert len(triangles([(0, 0, *SIZE)], SIZE)) == 6 * 4

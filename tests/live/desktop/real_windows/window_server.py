@@ -1,4 +1,4 @@
-"""What a real window of the tests is told, over a local socket: a JSON list a line, answered with a JSON line.
+"""Tell a real window of the tests what to do, over a local socket: a JSON list a line, answered with a JSON line.
 
 A list is a command and its arguments. Every such program takes the port and the window's title as its last arguments,
 and ends when the connection does.

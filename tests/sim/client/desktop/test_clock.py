@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from sim.client.desktop.clock import Frames, VirtualClock
 
 
-def test_what_is_due_happens_at_its_time_and_in_order() -> None:
+def test_planned_events_happen_at_their_times_and_in_order() -> None:
     clock = VirtualClock(10.0)
     seen: list[tuple[str, float]] = []
 
@@ -24,7 +24,7 @@ def test_what_is_due_happens_at_its_time_and_in_order() -> None:
     assert seen[-1] == ("late", 13.0)
 
 
-def test_an_event_may_plan_the_next_one_within_the_same_sleep() -> None:
+def test_an_event_can_plan_another_within_the_same_sleep() -> None:
     clock = VirtualClock(0.0)
     ticks: list[float] = []
 
@@ -53,12 +53,12 @@ def test_frames_are_counted_from_the_phase() -> None:
     assert frames.at_or_after(0.0) == pytest.approx(0.01)
 
 
-def test_without_a_rate_there_is_a_frame_at_any_time() -> None:
+def test_an_infinite_frame_rate_has_a_frame_at_any_time() -> None:
     assert Frames(math.inf).at_or_after(1.2345) == Frames(math.inf).at_or_before(1.2345) == 1.2345
 
 
 @given(st.floats(10.0, 240.0), st.floats(0.0, 0.1), st.integers(0, 10**6))
-def test_a_frames_own_time_is_its_frame(fps: float, phase_s: float, count: int) -> None:
+def test_the_frame_at_a_frames_own_time_is_that_frame(fps: float, phase_s: float, count: int) -> None:
     frames = Frames(fps, phase_s)
     time_s = phase_s + count / fps
     assert frames.at_or_after(time_s) == frames.at_or_before(time_s) == time_s

@@ -60,7 +60,7 @@ def test_a_grab_takes_a_millisecond() -> None:
 
 
 @pytest.mark.parametrize(("wait", "is_seen"), [(0.17, False), (0.181, True)])
-def test_a_view_is_seen_from_the_next_frame_on_after_the_latency(wait: float, is_seen: bool) -> None:
+def test_a_view_is_seen_one_latency_after_the_next_frame(wait: float, is_seen: bool) -> None:
     shown = Shown()
     shown.clock.sleep(0.1)
     shown.display.show(moved(1))
@@ -69,7 +69,7 @@ def test_a_view_is_seen_from_the_next_frame_on_after_the_latency(wait: float, is
     assert shown.shows(moved(1) if is_seen else PLAIN)
 
 
-def test_an_older_frame_never_follows_a_newer_one() -> None:
+def test_no_grab_shows_an_older_view_than_the_grab_before() -> None:
     shown = Shown(0.0, 0.4)
     pictures = [Painter(SIZE, Scales(1, 1), FONT, Edition("1.20.1"), "noise", 0).grab(moved(x)) for x in range(16)]
     order = []
@@ -103,7 +103,7 @@ def test_a_black_display_keeps_its_size() -> None:
     assert shown.display.grab().any()
 
 
-def test_views_are_kept_for_as_long_as_they_may_be_seen() -> None:
+def test_the_right_view_is_shown_after_a_hundred_views() -> None:
     shown = Shown()
     for step in range(1, 100):
         shown.clock.sleep(0.1)
@@ -113,7 +113,7 @@ def test_views_are_kept_for_as_long_as_they_may_be_seen() -> None:
     assert shown.shows(moved(98))
 
 
-def test_another_painter_draws_from_the_next_grab_on() -> None:
+def test_a_replaced_painter_draws_from_the_next_grab_on() -> None:
     shown = Shown()
     shown.display.painter = Painter((40, 30), Scales(1, 1), FONT, Edition("1.20.1"), "flat", 0)
     assert shown.display.grab().shape == (30, 40, 3)

@@ -48,7 +48,7 @@ def test_keys_reach_the_game_after_the_windows_latency() -> None:
     assert not typed.game.keys.is_held("forward")
 
 
-def test_text_comes_as_its_characters() -> None:
+def test_typed_text_reaches_the_game_as_its_characters() -> None:
     typed = Typed()
     typed.game.open("chat")
     typed.keyboard.type("/Tp ~木")
@@ -57,7 +57,7 @@ def test_text_comes_as_its_characters() -> None:
     assert typed.game.chat.typed == "/Tp ~木"
 
 
-def test_a_key_types_what_a_us_keyboard_has_there_and_one_with_a_word_for_a_name_types_nothing() -> None:
+def test_keys_type_their_us_characters_and_keys_named_by_a_word_type_nothing() -> None:
     typed = Typed()
     typed.game.open("chat")
     for key in ("A", "space", "/", "f3", "left.shift"):
@@ -67,7 +67,7 @@ def test_a_key_types_what_a_us_keyboard_has_there_and_one_with_a_word_for_a_name
     assert typed.game.chat.typed == "a /"
 
 
-def test_text_in_the_world_presses_the_keys_that_have_it() -> None:
+def test_text_typed_in_the_world_presses_its_keys() -> None:
     typed = Typed()
     typed.keyboard.type("E")
     typed.clock.sleep(0.01)
@@ -75,7 +75,7 @@ def test_text_in_the_world_presses_the_keys_that_have_it() -> None:
     assert typed.game.screen == "inventory"
 
 
-def test_a_key_has_any_of_its_names_and_an_unknown_name_is_an_error() -> None:
+def test_a_key_is_pressed_by_a_synonym_and_an_unknown_name_is_refused() -> None:
     typed = Typed()
     typed.keyboard.press("escape")
     typed.clock.sleep(0.01)
@@ -95,7 +95,7 @@ def test_a_key_has_any_of_its_names_and_an_unknown_name_is_an_error() -> None:
         ("il", {"w": "'", "q": "/"}),
     ],
 )
-def test_to_1_12_a_key_is_what_the_layout_makes_there(layout: str, taken: dict[str, str]) -> None:
+def test_up_to_1_12_a_key_is_taken_by_what_the_layout_makes_at_its_place(layout: str, taken: dict[str, str]) -> None:
     # As a window of LWJGL 2.9.3 took them (tests/live/desktop/test_lwjgl2_window.py).
     for place, key in taken.items():
         typed = Typed(layout, is_lwjgl_2=True)
@@ -105,20 +105,20 @@ def test_to_1_12_a_key_is_what_the_layout_makes_there(layout: str, taken: dict[s
         assert typed.held() == set()
 
 
-def test_to_1_12_a_key_whose_symbol_lwjgl_2_lacks_does_nothing() -> None:
+def test_up_to_1_12_a_key_whose_symbol_lwjgl_2_lacks_does_nothing() -> None:
     typed = Typed("ru", is_lwjgl_2=True)
     typed.sender.send(PLACES["w"], is_down=True)
     assert typed.held() == set()
 
 
-def test_from_1_13_on_a_key_is_its_place_under_every_layout() -> None:
+def test_from_1_13_on_a_key_is_taken_by_its_place_under_every_layout() -> None:
     for layout in LAYOUTS:
         typed = Typed(layout)
         typed.keyboard.press("w")
         assert typed.held() == {"w"}
 
 
-def test_to_1_12_shift_makes_another_key_of_a_digit_which_stays_down_without_it() -> None:
+def test_up_to_1_12_a_digit_pressed_with_shift_stays_down_if_released_without_it() -> None:
     typed = Typed("us", is_lwjgl_2=True)
     for place in ("left.shift", "2"):
         typed.sender.send(PLACES[place], is_down=True)
@@ -128,7 +128,7 @@ def test_to_1_12_shift_makes_another_key_of_a_digit_which_stays_down_without_it(
     assert typed.held() == {"@"}, "it went up as 2"
 
 
-def test_what_a_key_types_is_the_layouts_own() -> None:
+def test_keys_type_the_characters_of_the_layout() -> None:
     typed = Typed("fr")
     typed.game.open("chat")
     for place in ("w", "q", "2"):

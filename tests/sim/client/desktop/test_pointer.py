@@ -82,7 +82,7 @@ def test_a_click_lands_on_the_button_under_the_mouse_when_it_is_pressed() -> Non
     assert desktop.window.down == set()
 
 
-def test_a_button_at_the_right_edge_of_an_odd_window_is_met() -> None:
+def test_a_click_at_the_right_edge_of_an_odd_sized_window_hits_the_button() -> None:
     desktop = Desktop("title")
     quit_game = menu(MenuState("title"), desktop.game.edition, 428, 241).buttons[0]
     desktop.pointer.move(2 * (quit_game.left + quit_game.width) - 1, 2 * (quit_game.top + 1))
@@ -91,7 +91,7 @@ def test_a_button_at_the_right_edge_of_an_odd_window_is_met() -> None:
     assert desktop.game.screen == "worlds"
 
 
-def test_the_buttons_of_the_world_are_pressed_and_released() -> None:
+def test_mouse_buttons_are_pressed_and_released_in_the_world() -> None:
     desktop = Desktop()
     desktop.pointer.press("right")
     desktop.clock.sleep(0.02)
@@ -101,7 +101,7 @@ def test_the_buttons_of_the_world_are_pressed_and_released() -> None:
     assert not desktop.game.keys.is_held("use")
 
 
-def test_the_time_of_a_click_is_when_it_arrives() -> None:
+def test_two_clicks_a_tenth_of_a_second_apart_are_a_double_click() -> None:
     desktop = Desktop("worlds")
     row = menu(MenuState("worlds"), desktop.game.edition, 428, 241).buttons[1]
     desktop.pointer.move(2 * (row.left + 5), 2 * (row.top + 5))

@@ -51,7 +51,7 @@ def test_latencies_lie_within_their_bounds_and_keep_the_order() -> None:
     assert 0.25 < times[-1] <= 0.3
 
 
-def test_what_is_pressed_behind_another_window_strays() -> None:
+def test_a_key_pressed_behind_another_window_is_recorded_as_a_stray() -> None:
     desktop = Desktop()
     desktop.press("w")
     desktop.window.is_in_front = False
@@ -89,7 +89,7 @@ def test_a_delayed_event_holds_up_the_next_one() -> None:
     assert desktop.arrived[-1][1] == pytest.approx(0.51)
 
 
-def test_something_else_is_delivered_behind_the_events_on_their_way() -> None:
+def test_delivered_events_come_after_the_keys_on_their_way() -> None:
     desktop = Desktop(0.0, 0.1)
     for number in range(9):
         desktop.press(str(number))
@@ -98,7 +98,7 @@ def test_something_else_is_delivered_behind_the_events_on_their_way() -> None:
     assert desktop.names()[-1] == "focus"
 
 
-def test_delivery_is_neither_dropped_nor_delayed() -> None:
+def test_delivered_events_are_neither_dropped_nor_delayed() -> None:
     desktop = Desktop()
     desktop.window.drop_next()
     desktop.window.delay_next(0.2)
@@ -132,7 +132,7 @@ def test_the_game_takes_events_at_its_next_frame() -> None:
     assert desktop.arrived == [("w", 0.03), ("-w", 0.03), ("s", pytest.approx(0.13))]
 
 
-def test_an_event_that_has_arrived_is_taken_when_asked_for_and_once() -> None:
+def test_poll_takes_an_event_that_has_arrived_once() -> None:
     desktop = Desktop(0.01, 0.01, frames=Frames(1.0, 0.5))
     desktop.press("w")
     desktop.window.poll()

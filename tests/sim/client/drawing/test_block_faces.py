@@ -26,13 +26,13 @@ def test_a_top_has_the_blocks_colour_and_a_side_less_light() -> None:
     assert lit == {(0, 77.5, 77.5, 77.5), (1, 125, 125, 125), (2, 100, 100, 100)}
 
 
-def test_a_block_in_the_floor_shows_its_top_alone_and_a_hole_is_black() -> None:
+def test_a_block_in_the_floor_shows_only_its_top_and_a_hole_is_black() -> None:
     faces = faces_of({(0, 63, 0): "obsidian", (5, 63, 0): "air"}, floor=64)
     assert faces.corners[..., 1].tolist() == [[64] * 4, [64] * 4]
     assert faces.colours.tolist() == [list(block_colour("obsidian")), list(HOLE)]
 
 
-def test_the_bare_floor_around_has_a_top_for_each_block_that_nothing_is_built_in_or_on() -> None:
+def test_floor_faces_leaves_out_blocks_with_anything_built_in_or_on_them() -> None:
     side = 2 * NEAR_FLOOR + 1
     faces = floor_faces(
         (10, 64, 20), {(10, 63, 20): "dirt", (11, 64, 21): "stone", (11, 65, 20): "stone"}, 64, "bedrock"

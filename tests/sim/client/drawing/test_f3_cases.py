@@ -26,7 +26,7 @@ def test_the_same_seed_gives_the_same_frames() -> None:
         assert np.array_equal(frame, other_frame)
 
 
-def test_screens_stay_in_the_world_and_have_what_their_layout_shows() -> None:
+def test_random_screens_lie_within_the_world_and_fit_their_layout() -> None:
     rng = np.random.default_rng(0)
     for number in range(300):
         layout = LAYOUTS[number % len(LAYOUTS)]
@@ -58,7 +58,7 @@ def test_a_perfect_reader_reads_the_numbers_as_shown() -> None:
     assert expected(standin).xyz == (1.235, 64.123, -7.654)
 
 
-def test_a_scale_fits_both_sides_of_the_window() -> None:
+def test_the_gui_scale_fits_the_windows_width_and_height() -> None:
     for window in ((320, 480), (660, 240)):
         scales = {screen.gui_scale for screen, _ in islice(frames(FONT, 0, (window,)), 18)}
         assert scales == {1}

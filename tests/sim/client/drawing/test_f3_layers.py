@@ -1,6 +1,6 @@
 """The virtual client's debug screen; reading it is left to test_debug_screen.py.
 
-26.4's boxes, drawn: positions and colours of today's facts, in GUI pixels.
+26.4's boxes, drawn: positions and colours of the facts, in GUI pixels.
 """
 
 import dataclasses
@@ -24,7 +24,7 @@ def texts(screen: F3Screen) -> tuple[list[str], list[str]]:
     return [line.text for line in left_lines(screen)], [line.text for line in right_lines(screen)]
 
 
-def test_the_lines_of_1_12_say_what_the_facts_say() -> None:
+def test_the_lines_of_1_12_match_the_facts() -> None:
     left, right = texts(SCREEN)
     for line in (
         "XYZ: -8.500 / 64.00000 / 100.250",
@@ -50,12 +50,12 @@ def test_the_lines_of_1_12_say_what_the_facts_say() -> None:
         ("standin", "Looking at: -9 63 101"),
     ],
 )
-def test_each_layout_has_the_lines_of_its_row(layout: Layout, line: str) -> None:
+def test_each_layout_writes_the_lines_of_its_versions(layout: Layout, line: str) -> None:
     left, right = texts(dataclasses.replace(SCREEN, layout=layout))
     assert line in left + right
 
 
-def test_reduced_debug_info_leaves_no_position() -> None:
+def test_reduced_debug_info_hides_the_position() -> None:
     left, right = texts(dataclasses.replace(SCREEN, reduced=True))
     assert "Chunk-relative: 7 0 4" in left
     assert not [line for line in left + right if line.startswith(("XYZ", "Block:", "Facing", "Looking", "minecraft:"))]
@@ -89,7 +89,7 @@ def test_the_value_true_is_green_and_the_label_of_the_block_underlined() -> None
     assert (frame[top : top + 2, 800:848] == 224).all()
 
 
-def test_the_world_itself_is_left_as_it_is() -> None:
+def test_painting_does_not_change_the_given_world() -> None:
     world = np.zeros((480, 854, 3), np.uint8)
     paint(world, SCREEN, FONT)
     assert not world.any()
@@ -111,7 +111,7 @@ def ink(frame: Frame, colour: tuple[int, int, int], rows: tuple[int, int]) -> li
     return [int(column) for column in np.flatnonzero(found.any(0))]
 
 
-def test_the_title_stands_at_six_and_names_end_where_the_widest_does() -> None:
+def test_a_boxs_title_begins_at_6_and_its_names_are_aligned_on_the_right() -> None:
     frame = painted(dataclasses.replace(BOXED_SCREEN, entries=("player_position",)))
     names = ("XYZ", "Block", "Chunk", "Facing", "Dimension")
     widest = max(map(LETTERS.width, names))
@@ -124,7 +124,7 @@ def test_the_title_stands_at_six_and_names_end_where_the_widest_does() -> None:
         assert min(ink(frame, WHITE, (2 + 9 * row, 10 + 9 * row))[1:]) == 3 + widest + 5
 
 
-def test_what_stands_between_values_is_darker_and_true_and_false_have_colours() -> None:
+def test_commas_between_values_are_darker_and_true_and_false_are_coloured() -> None:
     target = Target((4, -61, 11), "minecraft:stone")
     screen = dataclasses.replace(BOXED_SCREEN, target=target, properties=(("lit", "true"), ("wet", "false")))
     frame = painted(dataclasses.replace(screen, entries=("looking_at_block_state",)))
@@ -134,7 +134,7 @@ def test_what_stands_between_values_is_darker_and_true_and_false_have_colours() 
     assert ink(frame, (255, 0, 0), (38, 46))
 
 
-def test_grounds_reach_one_pixel_further_and_the_title_has_its_own() -> None:
+def test_a_boxs_grounds_reach_one_pixel_beyond_its_text_and_the_titles_is_darker() -> None:
     frame = painted(dataclasses.replace(BOXED_SCREEN, entries=("player_section_position",)), 200)
     title, facts = (round(200 * 111 / 255 + grey * 144 / 255) for grey in (48, 80))
     width = LETTERS.width("Section-Relative") + 5 + LETTERS.width("00 00 00")
@@ -160,14 +160,14 @@ def test_right_boxes_end_three_pixels_before_the_edge_and_lines_have_no_bar() ->
     assert not frame[:, [0, 426]].any()
 
 
-def test_lines_below_facts_stand_two_pixels_lower() -> None:
+def test_lines_below_a_boxs_facts_are_two_pixels_lower() -> None:
     screen = dataclasses.replace(BOXED_SCREEN, entries=("system_specs",))
     frame = painted(screen)
     assert not (frame[[47, 48]] == 224).any()
     assert (frame[49:57] == 224).any()
 
 
-def test_a_box_that_did_not_change_is_the_same_layer() -> None:
+def test_an_unchanged_box_is_drawn_as_the_same_layer() -> None:
     from sim.client.drawing.f3_layers import F3Layers
 
     layers = F3Layers(LETTERS, (427, 240))

@@ -39,7 +39,7 @@ def bounds(mask: np.ndarray) -> tuple[int, int, int, int]:
     return int(columns[0]), int(rows[0]), int(columns[-1]) + 1, int(rows[-1]) + 1
 
 
-def test_without_a_hotbar_nothing_is_drawn() -> None:
+def test_a_view_without_a_hotbar_draws_no_hud() -> None:
     assert hud().of(View(MenuState("world"), (0, 64, 0))) == []
 
 
@@ -70,7 +70,7 @@ def test_the_chosen_slot_is_brighter_than_the_others() -> None:
     assert bar == (left, 17, left + 182, 40)
 
 
-def test_a_stack_is_an_icon_with_its_count_unless_it_is_one() -> None:
+def test_a_stack_is_drawn_as_an_icon_with_a_count_above_one() -> None:
     one, two = (drawn(hud().of(view(None, 8, Stack("stone", count)))) for count in (1, 64))
     left = 213 - 91 + 3
     icon = one[221, left]
@@ -110,7 +110,7 @@ def test_a_line_fades_with_its_box() -> None:
     assert full[HEIGHT - 41, 327, 0] < 200
 
 
-def test_a_long_line_is_wrapped_at_words_and_its_end_is_lowest() -> None:
+def test_a_long_chat_line_is_wrapped_between_words_with_its_end_at_the_bottom() -> None:
     letters = Letters(FONT, 1)
     text = " ".join(["word"] * 30)
     fitting = max(count for count in range(1, 31) if letters.width(" ".join(["word"] * count)) <= 320)
@@ -124,11 +124,11 @@ def test_a_long_line_is_wrapped_at_words_and_its_end_is_lowest() -> None:
     assert lower.rect[2] < upper.rect[2]
 
 
-def test_a_word_longer_than_the_chat_stays_on_its_line() -> None:
+def test_a_word_wider_than_the_chat_is_not_wrapped() -> None:
     assert len(hud().chat((ChatLine("x" * 200, WHITE, 8),), None)) == 2
 
 
-def test_what_is_typed_has_a_cursor_and_shows_its_end() -> None:
+def test_the_typed_line_has_a_cursor_and_shows_the_end_of_a_long_text() -> None:
     letters = Letters(FONT, 1)
     box, text = hud().chat((), TypedLine("abc"))
     assert box.rect == (2, HEIGHT - 14, WIDTH - 2, HEIGHT - 2)
@@ -138,7 +138,7 @@ def test_what_is_typed_has_a_cursor_and_shows_its_end() -> None:
     assert WIDTH - 8 - letters.width("x") < long.rect[2] - long.rect[0] - 1 <= WIDTH - 8
 
 
-def test_what_is_behind_the_texts_is_as_dark_as_they_say() -> None:
+def test_the_ground_behind_chat_texts_has_its_given_alpha() -> None:
     for ground in (0, 51, 255):
         frame = drawn(hud().chat((ChatLine("I", WHITE, 8, ground),), TypedLine("I", ground=ground)), 200)
         assert {int(frame[row, 300, 0]) for row in (HEIGHT - 45, HEIGHT - 8)} == {round(200 * (255 - ground) / 255)}
@@ -162,7 +162,7 @@ def test_a_line_that_just_fits_is_shown_from_its_beginning() -> None:
     assert shown.rect[2] - shown.rect[0] - 1 == WIDTH - 8
 
 
-def test_what_did_not_change_is_the_same_layer_again() -> None:
+def test_unchanged_parts_of_the_hud_are_the_same_layers() -> None:
     layers = hud()
     assert layers.of(view()) == layers.of(view())
     assert layers.chat((ChatLine("a", WHITE, 8),), TypedLine("b")) == layers.chat(
@@ -170,7 +170,7 @@ def test_what_did_not_change_is_the_same_layer_again() -> None:
     )
 
 
-def test_everything_grows_with_the_scale() -> None:
+def test_the_hud_grows_with_the_gui_scale() -> None:
     small, large = hud().of(view()), hud(scale=2).of(view())
     assert [tuple(2 * edge for edge in layer.rect) for layer in small] == [layer.rect for layer in large]
 
@@ -274,7 +274,7 @@ def test_labels_and_texts_are_in_the_other_language() -> None:
     assert abs(middle - button.width / 2) <= 1
 
 
-def test_a_centred_text_lies_around_its_middle_and_another_begins_there() -> None:
+def test_a_centred_text_is_drawn_around_its_position_and_another_text_begins_at_it() -> None:
     letters = Letters(FONT, 1)
     state = MenuState("title")
     texts = layers(state)[-2:]

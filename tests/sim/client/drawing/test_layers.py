@@ -21,7 +21,7 @@ def grey(value: int, height: int = 10, width: int = 20) -> Frame:
         ((-5, 0, 0, 20), None),
     ],
 )
-def test_two_rectangles_share_what_lies_in_both(other: Rect, shared: Rect | None) -> None:
+def test_intersection_returns_the_shared_rectangle_or_none(other: Rect, shared: Rect | None) -> None:
     assert intersection((0, 0, 10, 20), other) == shared
     assert intersection(other, (0, 0, 10, 20)) == shared
 
@@ -83,7 +83,7 @@ def test_a_group_is_as_large_as_its_layers_and_draws_them_in_their_order() -> No
     assert not frame[1].any()
 
 
-def test_later_layers_are_over_earlier_ones_and_only_in_the_part() -> None:
+def test_draw_all_draws_later_layers_over_earlier_ones_and_only_inside_the_part() -> None:
     frame = grey(0)
     layers = [Blend((0, 0, 20, 10), (10, 10, 10), 255), Blend((5, 0, 20, 10), (20, 20, 20), 255)]
     draw_all(frame, layers, (4, 3, 7, 5))
@@ -110,7 +110,7 @@ class Note:
         self.parts.append(part)
 
 
-def test_nothing_is_drawn_before_a_grab_and_only_what_is_grabbed() -> None:
+def test_layers_are_drawn_only_when_grabbed_and_only_in_the_grabbed_region() -> None:
     picture, upper, lower = (
         LayeredPicture(np.zeros((100, 50, 3), np.uint8)),
         Note((10, 10, 20, 20)),
@@ -127,7 +127,7 @@ def test_nothing_is_drawn_before_a_grab_and_only_what_is_grabbed() -> None:
     assert upper.parts == [(10, 15, 20, 20), (10, 10, 20, 15)]
 
 
-def test_only_what_changed_is_drawn_again() -> None:
+def test_only_changed_layers_are_drawn_again() -> None:
     world = np.zeros((100, 50, 3), np.uint8)
     picture, kept, gone, new = LayeredPicture(world), Note((0, 0, 9, 9)), Note((0, 20, 9, 29)), Note((0, 40, 9, 49))
     picture.show(world, [kept, gone])
@@ -140,7 +140,7 @@ def test_only_what_changed_is_drawn_again() -> None:
     assert after[40:49, :9].all()
 
 
-def test_a_picture_once_given_never_changes() -> None:
+def test_a_returned_picture_never_changes() -> None:
     world = np.zeros((10, 10, 3), np.uint8)
     picture = LayeredPicture(world)
     first = picture.grab()
@@ -158,7 +158,7 @@ def test_a_region_beside_the_window_is_cut_off() -> None:
     assert picture.grab(Region(20, 0, 5, 5)).shape == (0, 0, 3)
 
 
-def test_the_same_region_is_the_same_array_until_something_changes() -> None:
+def test_grabbing_a_region_again_returns_the_same_array() -> None:
     world = np.zeros((10, 20, 3), np.uint8)
     picture = LayeredPicture(world)
     first = picture.grab(Region(0, 0, 5, 5))
@@ -168,7 +168,7 @@ def test_the_same_region_is_the_same_array_until_something_changes() -> None:
     assert picture.grab(Region(0, 0, 5, 6)) is not first
 
 
-def test_another_background_is_drawn_as_a_whole() -> None:
+def test_a_new_background_is_drawn_as_a_whole() -> None:
     picture = LayeredPicture(np.zeros((10, 20, 3), np.uint8))
     picture.grab()
     layer = Note((2, 2, 4, 4))
@@ -179,7 +179,7 @@ def test_another_background_is_drawn_as_a_whole() -> None:
     assert layer.parts == [(2, 2, 4, 4)]
 
 
-def test_rows_above_and_below_the_grabbed_ones_stay_to_be_drawn() -> None:
+def test_rows_outside_a_grabbed_region_are_drawn_when_they_are_grabbed() -> None:
     world = np.zeros((12, 20, 3), np.uint8)
     picture, layer = LayeredPicture(world), Note((0, 0, 20, 12))
     picture.grab()
@@ -211,7 +211,7 @@ def test_a_layer_beyond_the_window_is_drawn_up_to_its_edge() -> None:
     assert (layer.parts, beyond.parts) == ([(0, 0, 3, 3)], [])
 
 
-def test_a_narrow_part_is_all_that_is_drawn_for_it_and_the_rest_follows_later() -> None:
+def test_columns_outside_a_grabbed_region_are_drawn_when_they_are_grabbed() -> None:
     picture, layer = LayeredPicture(np.zeros((20, 40, 3), np.uint8)), Note((0, 0, 40, 20))
     picture.show(np.zeros((20, 40, 3), np.uint8), [layer])
     assert picture.grab(Region(8, 5, 4, 6)).all()
@@ -219,7 +219,7 @@ def test_a_narrow_part_is_all_that_is_drawn_for_it_and_the_rest_follows_later() 
     assert (picture.grab() == 1).all()  # each pixel once
 
 
-def test_two_regions_are_each_the_same_array_until_something_changes() -> None:
+def test_each_of_two_regions_stays_the_same_array_until_something_changes() -> None:
     world = np.zeros((20, 40, 3), np.uint8)
     picture = LayeredPicture(world)
     regions = Region(0, 0, 40, 5), Region(0, 10, 40, 5)

@@ -53,7 +53,7 @@ def test_a_large_text_covers_twice_the_size_at_its_scale(shadow: bool, rect: tup
     assert colours.shape == (*mask.shape, 3)
 
 
-def test_the_colour_is_written_blue_green_red_and_the_shadow_a_quarter_of_it() -> None:
+def test_a_texts_colours_are_blue_green_red_and_its_shadow_has_a_quarter_of_them() -> None:
     mask, colours = Letters(FONT, 1).text("!", 0, 0, (200, 101, 7), shadow=True).dots()
     assert colours[0, 0].tolist() == [7, 101, 200]
     assert colours[1, 1].tolist() == [1, 25, 50]
@@ -66,7 +66,7 @@ def test_an_empty_text_has_no_dots() -> None:
 
 
 @pytest.mark.parametrize("scale", [1, 2, 3, 4])
-def test_a_slanted_text_leans_to_the_right_by_a_quarter_of_a_dot_a_dot(scale: int) -> None:
+def test_a_slanted_text_leans_to_the_right_by_a_quarter_of_its_height(scale: int) -> None:
     letters = Letters(FONT, scale)
     upright, slanted = letters.text("l", 4, 0, WHITE), letters.text("l", 4, 0, WHITE, is_slanted=True)
     assert slanted.rect == (upright.rect[0] - scale, 0, upright.rect[2] + scale, 8 * scale)
@@ -97,7 +97,7 @@ def test_capitals_and_digits_leave_the_lowest_row_free() -> None:
     assert not any(byte >> 7 for char in "ABCXYZ0123456789-.:" for byte in FONT.glyphs[char])
 
 
-def test_a_letter_lies_in_the_cell_of_its_number() -> None:
+def test_a_letter_lies_in_the_atlas_cell_of_its_ascii_code() -> None:
     atlas = drawn_atlas()
     row, column = divmod(ord("!"), 16)
     cell = atlas[8 * row : 8 * row + 8, 8 * column : 8 * column + 8, 3]
@@ -105,7 +105,7 @@ def test_a_letter_lies_in_the_cell_of_its_number() -> None:
     assert not cell[:, 1:].any()
 
 
-def test_dots_are_white_and_the_others_transparent() -> None:
+def test_the_atlas_is_white_and_transparent_except_at_its_dots() -> None:
     atlas = drawn_atlas()
     assert atlas.shape == (128, 128, 4)
     assert (atlas[..., :3] == 255).all()

@@ -38,7 +38,7 @@ def test_each_label_lies_in_the_middle_of_its_button(name: ScreenName, size: tup
         assert abs((columns[0] + columns[-1] + 1) / 2 - button.width * scale / 2) <= 1.5 * scale
 
 
-def test_the_chat_lies_over_the_lower_left_and_goes_after_ten_seconds() -> None:
+def test_a_chat_message_is_drawn_above_the_hotbar_and_gone_after_ten_seconds() -> None:
     client = VirtualClient(world="dark")
     client.clock.sleep(0.2)
     before = client.display.grab()
@@ -52,7 +52,7 @@ def test_the_chat_lies_over_the_lower_left_and_goes_after_ten_seconds() -> None:
     assert np.array_equal(before, after)
 
 
-def test_what_is_in_the_hotbar_is_seen_with_its_count() -> None:
+def test_a_stack_in_the_hotbar_is_drawn_in_its_slot() -> None:
     client = VirtualClient(world="dark")
     client.clock.sleep(0.1)
     empty = client.display.grab()
@@ -63,7 +63,7 @@ def test_what_is_in_the_hotbar_is_seen_with_its_count() -> None:
     assert 213 + 69 <= changed[:, 1].min() <= changed[:, 1].max() <= 213 + 91
 
 
-def test_f1_hides_all_that_lies_over_the_world() -> None:
+def test_hiding_the_hud_leaves_only_the_world() -> None:
     client = VirtualClient(world="flat")
     client.game.hides_hud = True
     client.clock.sleep(0.2)
@@ -78,7 +78,7 @@ def layers() -> ViewLayers:
     return ViewLayers((854, 480), Scales(2, 2), FONT, Edition("1.16.5"), {})
 
 
-def test_in_the_world_there_are_hotbar_debug_screen_and_typed_line() -> None:
+def test_the_hotbar_the_debug_screen_and_the_typed_line_are_layers_over_the_world() -> None:
     shown = layers()
     counts = [
         len(shown.of(View(MenuState("world"), (0, 64, 0), f3, HOTBAR, typed=typed)))
@@ -87,13 +87,13 @@ def test_in_the_world_there_are_hotbar_debug_screen_and_typed_line() -> None:
     assert 0 < counts[0] < counts[1] < counts[2]
 
 
-def test_outside_a_world_there_is_the_menu_alone() -> None:
+def test_only_the_menu_is_drawn_outside_a_world() -> None:
     shown = layers()
     title = MenuState("title")
     assert shown.of(View(title, (0, 0, 0), F3, HOTBAR, typed=TypedLine("/tp"))) == shown.of(View(title, (0, 0, 0)))
 
 
-def test_what_did_not_change_is_the_same_layer_again() -> None:
+def test_an_unchanged_view_is_drawn_with_the_same_layers() -> None:
     shown = layers()
     view = View(MenuState("world"), (0, 64, 0), F3, HOTBAR)
     assert list(map(id, shown.of(view))) == list(map(id, shown.of(view)))
@@ -104,7 +104,7 @@ def world(kind: str, seed: int = 0) -> Frame:
 
 
 @pytest.mark.parametrize("kind", [*WORLDS, "bright", "dark"])
-def test_every_kind_has_the_asked_size_and_depends_on_the_seed_alone(kind: str) -> None:
+def test_every_kind_of_world_has_the_given_size_and_depends_only_on_the_seed(kind: str) -> None:
     assert world(kind).shape == (40, 50, 3)
     assert world(kind).dtype == np.uint8
     assert np.array_equal(world(kind), world(kind))
@@ -125,7 +125,7 @@ def test_a_noon_is_bright_and_a_night_is_dark() -> None:
     assert world("dark").max() < 30
 
 
-def test_a_gradient_changes_from_left_to_right_alone() -> None:
+def test_a_gradient_changes_only_from_left_to_right() -> None:
     picture = world("gradient")
     assert (picture == picture[:1]).all()
     assert not (picture == picture[:, :1]).all()

@@ -43,7 +43,7 @@ def shade(block: str, light: float) -> list[int]:
     return [round(part * light * inside) for part in reversed(block_colour(block))]
 
 
-def test_above_the_horizon_is_the_sky_and_below_it_the_floor() -> None:
+def test_the_sky_is_above_the_horizon_and_the_floor_below_it() -> None:
     picture = drawn(sight())
     assert tuple(picture[0, 0]) == SKY_BGR
     assert tuple(picture[49, 100]) == SKY_BGR
@@ -51,7 +51,7 @@ def test_above_the_horizon_is_the_sky_and_below_it_the_floor() -> None:
     assert picture[99, 100].tolist() == shade("bedrock", 1.0)
 
 
-def test_a_block_is_seen_where_it_stands_in_its_colour_with_the_light_of_its_side() -> None:
+def test_a_block_is_drawn_at_its_place_in_its_colour_and_its_sides_light() -> None:
     # Its face is 2.5 blocks ahead, its middle 1.12 lower than the eye: 50 + 50 * 1.12 / 2.5 / 0.7002 = 82.
     picture = drawn(sight({(0, 64, 3): "stone"}))
     assert picture[82, 100].tolist() == shade("stone", 0.8)
@@ -67,7 +67,7 @@ def test_west_is_to_the_right_of_a_player_who_looks_south() -> None:
 
 
 @pytest.mark.parametrize(("yaw", "ahead"), [(0, (0, 64, 3)), (90, (-3, 64, 0)), (180, (0, 64, -3)), (-90, (3, 64, 0))])
-def test_a_turned_view_shows_what_is_ahead_then(yaw: float, ahead: Block) -> None:
+def test_a_turned_view_shows_the_block_ahead(yaw: float, ahead: Block) -> None:
     light = 0.8 if yaw in (0, 180) else 0.62
     assert drawn(sight({ahead: "stone"}, yaw=yaw))[82, 100].tolist() == shade("stone", light)
 
@@ -80,7 +80,7 @@ def test_a_nearer_block_hides_a_farther_one() -> None:
     assert picture[55, 100].tolist() == shade("oak_planks", 0.8)
 
 
-def test_straight_down_is_the_block_under_the_feet() -> None:
+def test_looking_straight_down_shows_the_block_under_the_feet() -> None:
     assert drawn(sight({(0, 63, 0): "sand"}, pitch=90.0))[50, 100].tolist() == shade("sand", 1.0)
 
 
@@ -105,7 +105,7 @@ def test_the_block_in_the_hand_is_seen_in_the_lower_right() -> None:
     assert changed[:, 1].min() > 110
 
 
-def test_far_away_everything_turns_into_the_sky() -> None:
+def test_the_far_floor_fades_into_the_sky() -> None:
     # A row below the horizon the floor is 1.62 / (0.7002 / 100) = 231 blocks away.
     assert tuple(drawn(sight())[50, 100]) == SKY_BGR
 
@@ -116,7 +116,7 @@ def test_far_away_everything_turns_into_the_sky() -> None:
     st.floats(0, 90),
     st.tuples(st.integers(0, 199), st.integers(0, 99), st.integers(1, 200), st.integers(1, 100)),
 )
-def test_a_part_is_drawn_as_in_the_whole_picture(
+def test_a_part_drawn_alone_equals_that_part_of_the_whole_picture(
     at: tuple[float, float], yaw: float, pitch: float, part: tuple[int, int, int, int]
 ) -> None:
     built = {(1, 64, 2): "stone", (1, 65, 2): "dirt", (-4, 64, -2): "sand", (4, 63, 3): "obsidian", (0, 64, 4): "stone"}

@@ -31,7 +31,7 @@ def test_each_face_of_the_cube_is_two_triangles_seen_from_outside() -> None:
     assert len({tuple(normal) for normal in triangles[:, 0, 3:]}) == 6
 
 
-def test_the_floor_is_seen_from_above_and_reaches_as_far_as_anything_is_drawn() -> None:
+def test_the_floor_is_level_and_reaches_as_far_as_blocks_are_drawn() -> None:
     corners = floor_square()[:, :3]
     assert corners.min() == -FAR
     assert corners.max() == FAR
@@ -54,12 +54,12 @@ def test_blocks_are_placed_from_the_origin_in_their_colour_and_holes_are_dark() 
     assert max(hole[3:]) < 0.05
 
 
-def test_what_the_fog_hides_is_left_out() -> None:
+def test_blocks_hidden_by_the_fog_are_left_out() -> None:
     assert len(cubes({(FAR, 0, 0): "stone", (FAR + 1, 0, 0): "stone"}, (0, 0, 0))) == 1
     assert cubes({}, (0, 0, 0)).shape == (0, 6)
 
 
-def test_a_row_is_a_position_and_a_colour_from_0_to_1() -> None:
+def test_row_of_gives_a_position_and_a_colour_from_0_to_1() -> None:
     assert np.allclose(row_of((1, 2, 3), (255, 0, 51)), [[1, 2, 3, 1, 0, 0.2]])
 
 
@@ -90,7 +90,7 @@ def seen(point: tuple[float, float, float], yaw: float, pitch: float) -> NDArray
 
 
 @given(ANGLES, st.floats(0.1, 50.0))
-def test_the_point_looked_at_is_in_the_middle(angles: tuple[float, float], away: float) -> None:
+def test_the_point_looked_at_is_in_the_middle_of_the_window(angles: tuple[float, float], away: float) -> None:
     x, y, z = (own + away * part for own, part in zip((0.5, 1.62, 0.5), direction(*angles), strict=True))
     assert seen((x, y, z), *angles)[:2] == pytest.approx((0, 0), abs=1e-3)
 
@@ -101,7 +101,7 @@ def test_facing_south_west_is_to_the_right_and_the_sky_above() -> None:
     assert seen((0.5, 2.62, 5.5), 0, 0)[1] > 0
 
 
-def test_seventy_degrees_fit_from_top_to_bottom_and_a_nearer_point_is_in_front() -> None:
+def test_the_field_of_view_is_seventy_degrees_high_and_nearer_points_have_less_depth() -> None:
     # The tangent of 35 degrees is 0.7002.
     assert seen((0.5, 1.62 + 0.7002 * 4, 4.5), 0, 0)[1] == pytest.approx(1, abs=1e-3)
     assert seen((0.5, 1.62, 2.5), 0, 0)[2] < seen((0.5, 1.62, 4.5), 0, 0)[2] < 1

@@ -82,7 +82,7 @@ def test_selected_text_is_deleted_as_a_whole() -> None:
     assert chat.typed == ""
 
 
-def test_a_draft_is_deleted_as_a_whole_and_typing_goes_on_from_it() -> None:
+def test_backspace_deletes_a_whole_draft_and_typing_continues_it() -> None:
     for delete, typed in ((True, "x"), (False, "draftx")):
         chat = VirtualChat("draft")
         chat.open()
@@ -93,7 +93,7 @@ def test_a_draft_is_deleted_as_a_whole_and_typing_goes_on_from_it() -> None:
         assert (chat.typed, chat.is_draft) == (typed, False)
 
 
-def test_a_blank_line_is_no_draft() -> None:
+def test_a_blank_line_is_not_kept_as_a_draft() -> None:
     chat = VirtualChat("before")
     chat.open()
     chat.backspace()
@@ -102,13 +102,13 @@ def test_a_blank_line_is_no_draft() -> None:
     assert (chat.typed, chat.draft) == (None, "")
 
 
-def test_a_closed_chat_keeps_its_draft_when_it_is_closed_again() -> None:
+def test_closing_a_closed_chat_keeps_its_draft() -> None:
     chat = VirtualChat("draft")
     chat.close(keeps_draft=False)
     assert chat.draft == "draft"
 
 
-def test_messages_stand_on_their_ground() -> None:
+def test_lines_are_shown_on_the_given_ground() -> None:
     chat = VirtualChat()
     chat.say("text", 0)
     assert chat.lines(0, 77) == (ChatLine("text", WHITE, 8, 77),)

@@ -55,7 +55,7 @@ class Played:
         return [line.text for line in self.game.chat.lines(self.game.ticks)]
 
 
-def test_a_key_of_the_world_goes_to_the_game_until_it_is_released() -> None:
+def test_a_key_pressed_in_the_world_is_held_until_it_is_released() -> None:
     played = Played()
     played.controls.key("w", is_down=True)
     assert played.game.keys.is_held("forward")
@@ -65,7 +65,7 @@ def test_a_key_of_the_world_goes_to_the_game_until_it_is_released() -> None:
     assert played.game.keys.physical == set()
 
 
-def test_f3_toggles_the_debug_screen_on_release_in_a_world_alone() -> None:
+def test_f3_toggles_the_debug_screen_on_release_and_only_in_a_world() -> None:
     played = Played()
     played.controls.key("f3", is_down=True)
     assert played.game.has_f3
@@ -85,14 +85,14 @@ def test_f3_pressed_on_another_screen_toggles_nothing() -> None:
     assert not played.game.has_f3
 
 
-def test_f3_and_a_letter_is_no_toggle_and_no_game_key() -> None:
+def test_f3_and_a_debug_letter_neither_toggles_the_screen_nor_presses_the_letters_key() -> None:
     played = Played()
     played.tap("f3", "d")
     assert played.game.has_f3
     assert not played.game.keys.presses("right")
 
 
-def test_f3_and_another_key_of_the_game_is_that_key_and_a_toggle() -> None:
+def test_f3_and_a_movement_key_toggles_the_screen_and_presses_that_key() -> None:
     played = Played()
     played.tap("f3", "w")
     assert played.game.keys.presses("forward") == 1
@@ -127,7 +127,7 @@ def test_f3_and_f6_opens_the_debug_options_since_1_21_9(version: str, screen: Sc
     assert played.game.screen == ("pause" if screen == "world" else "world")
 
 
-def test_a_click_on_a_debug_options_button_shows_the_block_looked_at() -> None:
+def test_clicks_on_the_debug_options_show_the_target_block() -> None:
     played = Played("26.1")
     played.game.do("default_profile")
     played.tap("f3", "f6")
@@ -160,7 +160,7 @@ def test_o_opens_the_friends_since_26_2_and_closes_them(screen: ScreenName) -> N
 
 
 @pytest.mark.parametrize("screen", ["chat", "inventory", "death", "worlds", "debug_options"])
-def test_o_opens_no_friends_over_other_screens(screen: ScreenName) -> None:
+def test_o_does_not_open_the_friends_over_other_screens(screen: ScreenName) -> None:
     played = Played("26.2", screen)
     played.tap("o")
     assert played.game.screen == screen
@@ -187,7 +187,7 @@ def test_f3_and_p_switches_the_pause_without_focus() -> None:
     assert played.game.screen == "pause"
 
 
-def test_without_focus_only_the_world_is_paused() -> None:
+def test_losing_the_focus_pauses_only_the_world() -> None:
     played = Played(screen="inventory")
     played.controls.stay_unfocused()
     assert played.game.screen == "inventory"
@@ -203,7 +203,7 @@ def test_f3_and_c_copies_the_position_since_1_13() -> None:
     assert old.clipboard == "pasted"
 
 
-def test_reduced_debug_info_copies_nothing() -> None:
+def test_f3_and_c_copies_nothing_with_reduced_debug_info() -> None:
     played = Played()
     played.game.realm.rules["reducedDebugInfo"] = "true"
     played.tap("f3", "c")
@@ -246,7 +246,7 @@ def test_a_lost_focus_releases_every_key() -> None:
         ("title", "title"),
     ],
 )
-def test_esc_leads_where_it_does_in_the_game(screen: ScreenName, after: str) -> None:
+def test_esc_leads_from_each_screen_to_the_one_that_the_game_shows(screen: ScreenName, after: str) -> None:
     played = Played(screen=screen)
     played.tap("esc")
     assert played.game.screen == after
@@ -263,7 +263,7 @@ def test_e_closes_the_inventory_and_no_other_screen() -> None:
     assert paused.game.screen == "pause"
 
 
-def test_characters_go_into_the_chat_and_keys_alone_do_not() -> None:
+def test_characters_are_typed_into_the_chat_and_keys_alone_type_nothing() -> None:
     played = Played(screen="chat")
     played.type("h", "~", " ", "x")
     for key in ("backspace", "f5", "left.shift", "z"):
@@ -271,7 +271,7 @@ def test_characters_go_into_the_chat_and_keys_alone_do_not() -> None:
     assert played.game.chat.typed == "h~ "
 
 
-def test_characters_go_nowhere_but_into_the_chat() -> None:
+def test_characters_are_dropped_while_the_chat_is_closed() -> None:
     played = Played()
     played.controls.character("x")
     played.game.open("chat")
@@ -291,7 +291,7 @@ def test_control_pastes_and_selects_but_types_no_letter() -> None:
     assert played.game.chat.typed == "pasted"
 
 
-def test_a_line_that_is_broken_off_comes_back_since_1_21_9() -> None:
+def test_an_unfinished_line_comes_back_as_a_draft_since_1_21_9() -> None:
     for version, draft in (("1.21.8", ""), ("1.21.9", "/tp")):
         played = Played(version, "chat")
         played.type("/", "t", "p")
@@ -302,7 +302,7 @@ def test_a_line_that_is_broken_off_comes_back_since_1_21_9() -> None:
         assert (played.game.chat.typed, played.game.chat.is_draft) == (draft, bool(draft))
 
 
-def test_after_esc_a_line_comes_back_only_where_the_option_says_so() -> None:
+def test_a_line_comes_back_after_esc_only_with_the_option_for_drafts() -> None:
     for saves in (False, True):
         played = Played("26.1", "chat", GameOptions(save_chat_drafts=saves))
         played.type("h", "i")
@@ -316,7 +316,7 @@ def test_after_esc_a_line_comes_back_only_where_the_option_says_so() -> None:
         assert played.game.chat.typed == ""
 
 
-def test_the_key_of_commands_brings_back_commands_alone() -> None:
+def test_the_command_key_brings_back_only_drafts_that_are_commands() -> None:
     for draft, typed in (("/tp", "/tp"), ("hi", "/")):
         played = Played("26.1", "chat")
         played.type(*draft)
@@ -341,7 +341,7 @@ def test_a_hidden_chat_opens_from_26_1_on_and_sends_nothing(version: str, opens:
     assert played.game.view().chat == ()
 
 
-def test_reduced_debug_info_is_an_option_too() -> None:
+def test_the_option_for_reduced_debug_info_reduces_the_screen_and_f3_c() -> None:
     played = Played(options=GameOptions(reduced_debug_info=True))
     played.tap("f3", "c")
     assert played.clipboard == "pasted"
@@ -383,7 +383,7 @@ def test_enter_does_nothing_on_the_title() -> None:
     assert played.game.screen == "title"
 
 
-def test_a_button_of_the_world_is_a_key_of_the_game() -> None:
+def test_a_mouse_button_in_the_world_counts_as_a_key_of_the_game() -> None:
     played = Played()
     played.controls.button("right", (0, 0), SIZE, 0.0, is_down=True)
     assert played.game.keys.is_held("use")
@@ -402,7 +402,7 @@ def test_only_the_left_button_clicks_on_a_menu() -> None:
     assert str(played.game.screen) == "world"
 
 
-def test_a_click_beside_every_button_and_on_an_inactive_one_does_nothing() -> None:
+def test_clicks_beside_buttons_and_on_an_inactive_one_do_nothing() -> None:
     played = Played(screen="pause")
     played.click_at(0, 0)
     assert played.game.screen == "pause"
@@ -423,7 +423,7 @@ def test_a_world_is_entered_by_two_quick_clicks(second: float, after: str) -> No
     assert played.game.screen == after
 
 
-def test_a_click_elsewhere_and_one_on_the_world_are_no_double_click() -> None:
+def test_a_click_elsewhere_and_one_on_a_world_are_not_a_double_click() -> None:
     played, (x, y) = Played(screen="worlds"), (round(part) for part in ROW.middle)
     played.click_at(0, 0, 0.0)
     played.click_at(x, y, 0.1)

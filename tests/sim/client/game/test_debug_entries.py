@@ -1,4 +1,4 @@
-"""Which entries are on: debug-profile.json of each version (today's facts, rows 8, 14 to 16)."""
+"""The entries that are on: debug-profile.json of each version (FACTS: debug-profile.json)."""
 
 import json
 
@@ -24,7 +24,7 @@ def custom(status: str, version: int | None = None, entry: str = "minecraft:fps"
     return json.dumps(profile if version is None else {"DataVersion": version, **profile})
 
 
-def test_by_default_the_block_looked_at_is_not_shown() -> None:
+def test_the_default_entries_do_not_show_the_target_block() -> None:
     for edition in (OLD, NEW, Edition("26.4")):
         shown = shown_entries(GAME_DEFAULT, edition, has_f3=True)
         assert not [entry for entry in shown if entry.startswith("looking")]
@@ -47,13 +47,13 @@ def test_a_version_without_entries_shows_none() -> None:
 
 
 @pytest.mark.parametrize(("version", "entry"), [("26.1", "post_effect"), ("26.3", "post_effects")])
-def test_an_entry_is_known_from_its_first_version_on(version: str, entry: str) -> None:
+def test_each_version_knows_an_entry_under_its_own_name(version: str, entry: str) -> None:
     known = known_entries(Edition(version))
     assert entry in known
     assert len({"post_effect", "post_effects"} & set(known)) == 1
 
 
-def test_reduced_debug_info_leaves_the_section_and_nothing_of_two_entries() -> None:
+def test_reduced_debug_info_hides_the_position_and_the_target_block() -> None:
     shown = shown_entries(TUTORIAL, NEW, has_f3=True, is_reduced=True)
     assert "player_section_position" in shown
     assert not {"player_position", "looking_at_block_state"} & set(shown)
@@ -61,12 +61,12 @@ def test_reduced_debug_info_leaves_the_section_and_nothing_of_two_entries() -> N
     assert shown_entries(two, OLD, has_f3=True, is_reduced=True) == ()  # type: ignore[arg-type]  # plain texts
 
 
-def test_without_f3_only_what_is_always_on_is_shown() -> None:
+def test_only_entries_that_are_always_on_are_shown_without_f3() -> None:
     assert shown_entries(PERFORMANCE, NEW, has_f3=False) == ("fps",)
     assert "player_position" not in shown_entries(PERFORMANCE, NEW, has_f3=True)
 
 
-def test_a_file_replaces_everything_and_an_absent_one_nothing() -> None:
+def test_a_debug_profile_replaces_all_entries_and_a_missing_one_leaves_the_defaults() -> None:
     assert parse_profile(None, OLD) is GAME_DEFAULT
     assert parse_profile('{"profile":"default"}', OLD) is GAME_DEFAULT
     assert parse_profile('{"profile":"performance"}', OLD) is PERFORMANCE
@@ -86,7 +86,9 @@ def test_a_file_replaces_everything_and_an_absent_one_nothing() -> None:
         ('{"DataVersion":"x","custom":{"minecraft:fps":"inF3"}}', MIDDLE, {"fps": "inOverlay"}),
     ],
 )
-def test_the_word_for_f3_alone_is_that_of_the_version(text: str, edition: Edition, expected: object) -> None:
+def test_the_word_for_entries_shown_with_f3_depends_on_the_version(
+    text: str, edition: Edition, expected: object
+) -> None:
     assert parse_profile(text, edition) == expected
 
 

@@ -29,7 +29,7 @@ def test_every_entry_is_listed_the_texts_first_and_by_their_ids() -> None:
     assert {"chunk_borders", "visualize_heightmap"} < set(drawn)
 
 
-def test_a_search_leaves_the_entries_that_have_it_in_their_ids() -> None:
+def test_a_search_keeps_only_entries_whose_ids_contain_the_text() -> None:
     assert dict(choices(GAME_DEFAULT, Edition("1.21.9"), "looking_at_b")) == {"looking_at_block": "never"}
     assert dict(choices(GAME_DEFAULT, Edition("26.1"), "tp")) == {"tps": "inOverlay"}
 
@@ -53,7 +53,7 @@ def test_a_row_has_its_name_at_the_left_and_three_buttons_at_the_right(
 
 
 @pytest.mark.parametrize("height", [240, 270, 360])
-def test_rows_that_the_list_has_no_room_for_are_left_out(height: int) -> None:
+def test_rows_without_room_in_the_list_are_left_out(height: int) -> None:
     menu = shown("26.3", height=height)
     rows = {each.top for each in menu.buttons if isinstance(each.does, EntryChange)}
     assert len(rows) == (height - 61 - 33 - 2) // 20 - 1

@@ -19,11 +19,11 @@ from sim.client.game.edition import Edition, Layout
         ("26.4-snapshot-1", "26.4"),
     ],
 )
-def test_each_version_has_the_layout_of_its_row(version: str, layout: Layout) -> None:
+def test_each_version_has_its_debug_screens_layout(version: str, layout: Layout) -> None:
     assert Edition(version).layout == layout
 
 
-def test_a_version_is_at_least_itself_and_older_versions() -> None:
+def test_since_holds_for_a_versions_own_number_and_older_ones() -> None:
     edition = Edition("1.16.4")
     assert edition.since(1, 16)
     assert edition.since(1, 16, 4)

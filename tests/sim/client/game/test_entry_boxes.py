@@ -20,13 +20,13 @@ def titles(screen: F3Screen) -> list[list[str]]:
     return [[part[0].text for part in column] for column in both_columns(screen)]
 
 
-def test_the_default_boxes_stand_where_they_prefer() -> None:
+def test_the_default_boxes_stand_in_their_preferred_columns() -> None:
     left, right = titles(dataclasses.replace(SCREEN, entries=DEFAULT))
     assert left == ["120 fps T: 120 (fifo) @60Hz", "Position", "Server: Integrated @ 1.2/50.0 ms", "Help"]
     assert right == ["Minecraft 26.4 (26.4/vanilla)", "Memory", "Performance Impactors", "System Specs"]
 
 
-def test_position_and_block_say_what_the_facts_say() -> None:
+def test_the_position_and_block_boxes_match_the_facts() -> None:
     lines = [line.text for line in (*left_lines(SCREEN), *right_lines(SCREEN))]
     for line in (
         "XYZ: -12.300 / -59.00000 / -6.011",
@@ -56,11 +56,11 @@ def test_a_fluids_and_an_entitys_box_have_the_blocks_labels() -> None:
     assert "Coordinates: 0.50, 64.00, 2.50" in lines
 
 
-def test_without_a_block_looked_at_there_is_no_box_for_it() -> None:
+def test_a_screen_without_a_target_block_has_no_box_for_one() -> None:
     assert not [column for column in titles(dataclasses.replace(SCREEN, target=None)) if "Looking At Block" in column]
 
 
-def test_a_box_that_comes_goes_left_only_where_that_column_is_shorter() -> None:
+def test_a_new_box_goes_into_the_left_column_only_if_that_is_shorter() -> None:
     entries = ("looking_at_block_state", "looking_at_fluid_state")
     screen = dataclasses.replace(SCREEN, entries=entries, fluid=(1, 2, 3), has_f3=False)
     assert titles(screen) == [["Looking At Fluid"], ["Looking At Block"]]
@@ -74,7 +74,7 @@ def test_a_box_keeps_its_column_and_its_place() -> None:
     assert right[0] == "Memory"
 
 
-def test_a_block_that_was_gone_comes_back_last() -> None:
+def test_a_target_blocks_box_comes_back_at_the_end_of_a_column() -> None:
     stood = stood_after(dataclasses.replace(SCREEN, target=None), 270)
     left, right = titles(dataclasses.replace(SCREEN, stood=stood, entries=None, gui_scale=4))
     assert "Looking At Block" in (left[-1], right[-1])
@@ -82,7 +82,7 @@ def test_a_block_that_was_gone_comes_back_last() -> None:
 
 
 @pytest.mark.parametrize("rows", [40, 80, 120, 240, 540])
-def test_a_column_as_high_as_the_window_takes_no_more(rows: int) -> None:
+def test_a_full_column_takes_no_more_boxes(rows: int) -> None:
     entries = tuple(entry for entry in known_entries(Edition("26.4")))
     screen = dataclasses.replace(SCREEN, entries=entries)
     for column in box_columns(screen, rows):
@@ -91,6 +91,6 @@ def test_a_column_as_high_as_the_window_takes_no_more(rows: int) -> None:
     assert box_columns(again, rows) == box_columns(screen, rows)
 
 
-def test_a_box_begins_nine_below_the_end_of_the_one_before() -> None:
+def test_a_box_begins_nine_rows_below_the_box_before() -> None:
     left, _ = box_columns(dataclasses.replace(SCREEN, entries=DEFAULT), 540)
     assert [placed.top for placed in left] == [2, 20, 20 + 9 * 8, 20 + 9 * 11]

@@ -57,14 +57,14 @@ def test_the_default_screen_has_the_rows_of_a_real_one(version: str) -> None:
     assert ("MiB" in str(columns(version=version))) == (version == "26.1")
 
 
-def test_with_the_block_on_it_stands_left_over_the_memory_and_the_position_right() -> None:
+def test_the_target_block_stands_left_above_the_memory_and_the_position_on_the_right() -> None:
     left, right = columns()
     assert left[5:9] == ["Targeted Block: 17, -63, -33", "minecraft:oak_log", "", "Mem: 23% 480/2048MiB"]
     assert right[4].startswith("XYZ: ")
     assert right[11].startswith("Java: ")
 
 
-def test_a_group_counts_while_it_has_no_lines() -> None:
+def test_a_group_without_lines_still_counts_for_the_columns() -> None:
     left, right = columns(target=None)
     assert left[5].startswith("Mem: ")
     assert right[4].startswith("XYZ: ")
@@ -78,11 +78,11 @@ def test_two_entries_stand_beside_each_other_at_the_top_without_f3() -> None:
     assert with_f3[3:5] == ["", "Debug charts: [F3+1] Profiler hidden; [F3+2] FPS + TPS hidden;"]
 
 
-def test_a_profile_that_switches_nothing_on_shows_nothing() -> None:
+def test_a_debug_profile_without_entries_shows_no_lines() -> None:
     assert columns(entries=()) == ([], [])
 
 
-def test_an_odd_number_of_single_lines_has_its_middle_one_left() -> None:
+def test_the_middle_one_of_an_odd_number_of_single_lines_stands_left() -> None:
     left, right = columns(entries=("biome", "day_count", "tps"), has_f3=False)
     assert (left, right) == (
         ["Biome: minecraft:plains", "Day: 3", ""],
@@ -90,7 +90,7 @@ def test_an_odd_number_of_single_lines_has_its_middle_one_left() -> None:
     )
 
 
-def test_one_line_with_priority_stands_left() -> None:
+def test_a_single_priority_line_stands_left() -> None:
     assert columns(entries=("game_version",), has_f3=False) == (["Minecraft 26.1 (26.1/vanilla)", ""], [])
 
 
@@ -111,7 +111,7 @@ def test_labels_are_underlined_and_true_and_false_have_colours() -> None:
     assert [line.value for line in block] == ["", "", "", "true"]
 
 
-def test_reduced_debug_info_leaves_the_section_without_the_position() -> None:
+def test_reduced_debug_info_keeps_the_section_line_and_hides_the_position() -> None:
     left, right = columns(entries=None, reduced=True)
     lines = left + right
     assert "Section-relative: 04 04 11" in lines

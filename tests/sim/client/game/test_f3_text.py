@@ -57,7 +57,7 @@ def test_the_right_column_describes_the_target(layout: Layout, heading: list[str
     assert underlined == heading
 
 
-def test_true_and_false_have_a_colour_of_their_own() -> None:
+def test_true_and_false_have_their_own_colours() -> None:
     lines = right_lines(screen("1.16-1.19.2", properties=(("axis", "y"), ("lit", "true"), ("wet", "false"))))
     assert [line for line in lines if ": " in line.text][-3:] == [
         TextLine("axis: y"),
@@ -66,13 +66,13 @@ def test_true_and_false_have_a_colour_of_their_own() -> None:
     ]
 
 
-def test_without_a_target_there_is_none_on_either_side() -> None:
+def test_no_column_names_a_target_if_there_is_none() -> None:
     for layout in ("1.8-1.12", "1.13-1.15", "1.16-1.19.2", "standin"):
         shown = left(layout, target=None) + right(layout, target=None)
         assert not [line for line in shown if "ook" in line or "oak_log" in line or "Targeted" in line]
 
 
-def test_a_target_without_its_position_is_named_alone() -> None:
+def test_a_target_without_a_position_is_shown_by_its_name_only() -> None:
     named = Target(None, "minecraft:oak_log")
     assert "Targeted Block" in right("1.16-1.19.2", target=named)
     for layout in ("1.8-1.12", "1.13-1.15", "standin"):
@@ -94,7 +94,7 @@ def test_a_fluid_follows_the_target(layout: Layout, lines: list[str]) -> None:
     assert liquid == (layout == "1.13-1.15")
 
 
-def test_reduced_debug_info_leaves_the_position_in_the_chunk_alone() -> None:
+def test_reduced_debug_info_shows_only_the_position_in_the_chunk() -> None:
     shown = left("1.19.3-1.21.8", reduced=True)
     assert shown[-2:] == ["", "Chunk-relative: 14 6 1"]
     assert not [line for line in shown + right("1.19.3-1.21.8", reduced=True) if "XYZ" in line or "Targeted" in line]
@@ -117,6 +117,6 @@ def test_the_facing_is_the_nearest_of_four(yaw: float, facing: str) -> None:
     assert [line.text.split()[1] for line in lines if line.text.startswith("Facing")] == [facing]
 
 
-def test_the_first_line_names_the_version_or_one_with_its_layout() -> None:
+def test_the_first_line_names_the_version_or_else_one_of_its_layout() -> None:
     assert left("1.16-1.19.2", version="1.17.1")[0] == "Minecraft 1.17.1 (1.17.1/vanilla)"
     assert left("1.16-1.19.2")[0] == "Minecraft 1.16.4 (1.16.4/vanilla)"

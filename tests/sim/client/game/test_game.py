@@ -52,7 +52,7 @@ def test_a_click_places_one_block_at_the_next_tick() -> None:
     assert built(played) == {FRONT}
 
 
-def test_a_second_click_meets_the_blocks_near_face_and_is_refused() -> None:
+def test_a_click_on_the_near_face_of_the_placed_block_places_nothing() -> None:
     played = game()
     for _ in range(3):
         click(played)
@@ -81,7 +81,7 @@ def test_a_held_button_places_again_every_four_ticks() -> None:
     assert counts == [1, 1, 1, 1, 2, 2, 2, 2, 2]
 
 
-def test_where_use_is_toggled_one_click_places_every_four_ticks_until_the_next() -> None:
+def test_a_toggled_use_key_places_every_four_ticks_until_the_next_click() -> None:
     played = game(pitch=49.0, options=GameOptions(toggle_use=True))
     click(played)
     counts = []
@@ -124,7 +124,7 @@ def test_creative_reaches_half_a_block_farther(mode: Mode, count: int) -> None:
     assert len(built(played)) == count
 
 
-def test_counted_stacks_run_out() -> None:
+def test_a_stack_runs_out_in_survival_mode() -> None:
     played = game("survival")
     for _ in range(3):
         click(played)
@@ -134,7 +134,7 @@ def test_counted_stacks_run_out() -> None:
     assert played.realm.player.hotbar[0] is None
 
 
-def test_clicks_of_one_tick_use_up_one_block_only_and_creative_uses_up_none() -> None:
+def test_two_clicks_in_one_tick_use_up_one_block_in_survival_and_none_in_creative() -> None:
     for mode, left in (("survival", 1), ("creative", 2)):
         played = game("survival" if mode == "survival" else "creative")
         click(played)
@@ -143,7 +143,7 @@ def test_clicks_of_one_tick_use_up_one_block_only_and_creative_uses_up_none() ->
         assert played.realm.player.hotbar[0] == Stack("stone", left)
 
 
-def test_an_empty_hand_places_nothing_and_a_number_key_takes_another_slot() -> None:
+def test_a_number_key_selects_its_slot_and_an_empty_hand_places_nothing() -> None:
     played = game()
     played.keys.press("5")
     click(played)
@@ -163,7 +163,7 @@ def test_a_refused_placing_changes_nothing_and_the_next_one_is_not_refused() -> 
     assert built(played) == {FRONT}
 
 
-def test_a_ghost_block_is_there_for_two_ticks() -> None:
+def test_a_ghost_block_disappears_after_two_ticks() -> None:
     played = game()
     played.expect_ghost()
     click(played)
@@ -184,7 +184,7 @@ def test_the_chat_opens_at_the_next_tick_and_takes_the_keys() -> None:
     assert not played.keys.is_held("forward")
 
 
-def test_keys_that_are_down_count_again_when_a_screen_closes() -> None:
+def test_held_keys_but_no_held_buttons_count_again_when_a_screen_closes() -> None:
     played = game()
     played.keys.physical |= {"w", "right button"}
     played.open("inventory")
@@ -202,7 +202,7 @@ def test_the_pause_menu_stops_the_world_and_the_inventory_does_not() -> None:
         assert (played.realm.player.feet[0] > 0.5) is moves
 
 
-def test_a_death_takes_the_hotbar_and_respawning_leads_to_the_spawn() -> None:
+def test_a_death_empties_the_hotbar_and_respawning_leads_to_the_spawn_point() -> None:
     played = game()
     played.realm.spawn = (5.5, 64.0, 5.5)
     played.die()
@@ -215,7 +215,7 @@ def test_a_death_takes_the_hotbar_and_respawning_leads_to_the_spawn() -> None:
     assert played.realm.player.hotbar == [None] * 9
 
 
-def test_rules_keep_the_hotbar_and_skip_the_death_screen() -> None:
+def test_game_rules_can_keep_the_hotbar_and_skip_the_death_screen() -> None:
     played = game()
     played.realm.rules |= {"keepInventory": "true", "doImmediateRespawn": "true"}
     played.die()
@@ -231,7 +231,7 @@ def test_a_player_who_falls_out_of_the_world_dies() -> None:
     assert screen_of(played) == "death"
 
 
-def test_the_way_from_a_world_to_the_title_and_back() -> None:
+def test_buttons_lead_from_a_world_to_the_title_and_back() -> None:
     played = game()
     played.do("leave")
     ticks(played, 19)
@@ -254,7 +254,7 @@ def test_far_blocks_are_named_from_1_13_on(version: str, pitch: float, is_named:
     assert (f3.target is not None) is is_named
 
 
-def test_standing_still_nothing_to_be_seen_changes() -> None:
+def test_the_view_does_not_change_while_the_player_stands_still() -> None:
     played = game()
     ticks(played, 3)
     before = played.view()
@@ -325,7 +325,7 @@ def test_a_push_adds_to_the_velocity_and_lifts_the_player() -> None:
     assert (x, y, z) == pytest.approx((0.9, 64.0 + 0.36 - 0.0784, 0.3))
 
 
-def test_a_lost_connection_saves_and_shows_its_reason() -> None:
+def test_a_lost_connection_saves_the_world_and_shows_its_reason() -> None:
     saved: list[Realm] = []
     realm = game().realm
     played = VirtualGame(realm, on_leave=saved.append)
@@ -344,7 +344,7 @@ def test_tags_of_the_target_are_shown_since_1_13() -> None:
         assert screen.tags == tags
 
 
-def test_a_screen_of_the_games_own_entries_names_no_target() -> None:
+def test_a_debug_screen_with_the_default_entries_names_no_target() -> None:
     realm = game(version="1.21.9").realm
     for entries, is_named in ((GAME_DEFAULT, False), (TUTORIAL, True)):
         screen = VirtualGame(realm, debug_entries=entries).view().f3
@@ -352,7 +352,7 @@ def test_a_screen_of_the_games_own_entries_names_no_target() -> None:
         assert screen.names_target is is_named
 
 
-def test_entries_that_are_always_on_are_there_without_f3() -> None:
+def test_entries_that_are_always_on_are_shown_without_f3() -> None:
     entries: dict[str, Status] = {"player_position": "alwaysOn", "fps": "inOverlay"}
     played = VirtualGame(game(version="1.21.9").realm, debug_entries=entries)
     with_f3 = played.view().f3
@@ -368,7 +368,7 @@ def test_entries_that_are_always_on_are_there_without_f3() -> None:
 
 
 @pytest.mark.parametrize(("version", "is_seen"), [("1.21.8", False), ("1.21.9", True)])
-def test_a_screen_shows_the_text_though_the_hud_is_hidden(version: str, is_seen: bool) -> None:
+def test_a_menu_shows_the_debug_screen_despite_a_hidden_hud_since_1_21_9(version: str, is_seen: bool) -> None:
     played = game(version=version)
     played.hides_hud = True
     assert played.view().f3 is None
@@ -376,7 +376,7 @@ def test_a_screen_shows_the_text_though_the_hud_is_hidden(version: str, is_seen:
     assert (played.view().f3 is not None) is is_seen
 
 
-def test_a_block_of_26_4_that_was_gone_comes_back_last() -> None:
+def test_the_target_blocks_box_of_26_4_comes_back_at_the_end() -> None:
     entries: dict[str, Status] = dict.fromkeys(
         ("fps", "looking_at_block_state", "player_section_position"), "inOverlay"
     )
@@ -400,7 +400,7 @@ def test_a_block_of_26_4_that_was_gone_comes_back_last() -> None:
     assert columns() == [left, ["Looking At Block", "Help"]]
 
 
-def test_the_debug_screen_names_the_block_that_was_looked_at_a_tick_before() -> None:
+def test_the_debug_screen_names_the_target_block_of_the_tick_before() -> None:
     played = game(pitch=65.0)
     played.tick()
     played.realm.player.feet = (0.5, 64.0, 1.5)

@@ -1,7 +1,7 @@
 from sim.client.game.keys import BINDINGS, SIDES_SWAPPED, GameKeys
 
 
-def test_a_press_is_held_and_counted_once() -> None:
+def test_a_pressed_key_is_held_and_its_press_counted_once() -> None:
     keys = GameKeys()
     keys.press("W")
     assert keys.is_held("forward")
@@ -41,7 +41,7 @@ def test_keys_that_are_down_count_again_but_buttons_and_unbound_keys_do_not() ->
     assert keys.presses("forward") == 0
 
 
-def test_the_stand_ins_sides_are_swapped() -> None:
+def test_the_stand_ins_left_and_right_keys_are_swapped() -> None:
     keys = GameKeys(SIDES_SWAPPED)
     keys.press("a")
     keys.press("w")
@@ -53,7 +53,7 @@ def test_the_stand_ins_sides_are_swapped() -> None:
     assert not keys.is_held("right")
 
 
-def test_one_press_begins_what_is_toggled_and_the_next_one_ends_it() -> None:
+def test_a_press_starts_a_toggled_action_and_the_next_press_ends_it() -> None:
     keys = GameKeys()
     keys.toggled = frozenset({"use"})
     for is_held in (True, False, True):
@@ -63,7 +63,7 @@ def test_one_press_begins_what_is_toggled_and_the_next_one_ends_it() -> None:
     assert keys.presses("use") == 3
 
 
-def test_a_screen_ends_what_a_button_began_but_not_what_a_key_did() -> None:
+def test_opening_a_screen_ends_actions_toggled_by_a_button_but_not_by_a_key() -> None:
     keys = GameKeys()
     keys.toggled = frozenset({"use", "attack", "sneak"})
     keys.physical.add("left.shift")

@@ -9,7 +9,7 @@ from sim.client.game.options import LINES, GameOptions, parse_options
 NEWEST = Edition("26.4")
 
 
-def test_without_lines_the_options_are_the_games_own() -> None:
+def test_options_without_lines_are_the_games_defaults() -> None:
     assert parse_options([], NEWEST) == GameOptions()
 
 
@@ -20,7 +20,7 @@ def test_an_option_of_each_type_is_read() -> None:
     )
 
 
-def test_of_two_lines_for_one_option_the_last_counts() -> None:
+def test_the_last_of_two_lines_for_one_option_counts() -> None:
     assert parse_options(["guiScale:3", "guiScale:1"], NEWEST).gui_scale == 1
 
 
@@ -38,7 +38,7 @@ def test_of_two_lines_for_one_option_the_last_counts() -> None:
         ("textBackgroundOpacity:1.5", "textBackgroundOpacity can't be '1.5'"),
     ],
 )
-def test_a_line_that_is_no_option_is_refused(line: str, problem: str) -> None:
+def test_a_line_that_is_not_an_option_is_refused(line: str, problem: str) -> None:
     with pytest.raises(UserError, match=problem):
         parse_options([line], NEWEST)
 
@@ -62,7 +62,7 @@ def test_each_option_has_a_field_of_its_own() -> None:
     assert sorted(line.field for line in LINES.values()) == sorted(GameOptions.__dataclass_fields__)
 
 
-def test_only_a_background_everywhere_changes_what_is_behind_the_typed_line() -> None:
+def test_only_a_background_set_to_everywhere_changes_the_typed_lines_ground() -> None:
     seen = [
         (options.message_ground, options.typed_ground)
         for options in (

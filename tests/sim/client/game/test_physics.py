@@ -51,13 +51,13 @@ def test_a_hold_and_its_coasting_are_two_geometric_series(held: int, gait: Gait,
     assert displacement(held, gait) == pytest.approx(covered(held, PUSH * factor), abs=1e-9)
 
 
-def test_walking_covers_what_the_facts_say() -> None:
+def test_holds_cover_the_distances_in_the_facts() -> None:
     assert [round(displacement(held, "walk"), 3) for held in range(1, 7)] == [0.210, 0.427, 0.642, 0.857, 1.073, 1.291]
     assert displacement(0, "walk") == 0
 
 
 @given(ticks, st.sampled_from(["walk", "sneak"]), st.sampled_from([0.0, 90.0, 180.0, -90.0]))
-def test_ticks_in_a_free_world_add_up_to_the_displacement(held: int, gait: Gait, yaw: float) -> None:
+def test_steps_without_obstacles_add_up_to_the_displacement(held: int, gait: Gait, yaw: float) -> None:
     feet, velocity, stands = (0.5, 64.0, 0.5), AT_REST, True
     for tick in range(held + 30):
         push = wish(tick < held, 0, gait, yaw)
@@ -83,7 +83,7 @@ def test_a_wall_stops_a_walker_at_its_face(yaw: float, start: float) -> None:
 
 
 @given(st.floats(-5, 5), st.floats(-5, 5), st.lists(st.tuples(st.integers(-1, 1), st.integers(-1, 1)), max_size=40))
-def test_nobody_ever_walks_into_a_block(x: float, z: float, keys: list[tuple[int, int]]) -> None:
+def test_a_player_never_walks_into_a_block(x: float, z: float, keys: list[tuple[int, int]]) -> None:
     def is_solid(block_x: int, y: int, block_z: int) -> bool:
         return y < 64 or (y == 64 and (block_x * 7 + block_z * 3) % 5 == 0)
 
@@ -107,11 +107,11 @@ def test_a_fall_ends_on_the_floor() -> None:
 
 
 @pytest.mark.parametrize(("z", "touches"), [(0.69, False), (0.71, True)])
-def test_a_block_is_touched_from_two_tenths_off_the_middle_of_the_cell_behind_it(z: float, touches: bool) -> None:
+def test_a_player_overlaps_the_next_block_from_0_2_off_its_cells_middle_on(z: float, touches: bool) -> None:
     assert overlaps((0.5, 64.0, z), 1.8, (0, 64, 1)) is touches
 
 
-def test_two_keys_at_once_are_no_faster_than_an_input_of_one() -> None:
+def test_two_keys_together_give_an_input_of_length_1() -> None:
     east, south = wish(1, 1, "walk", 0.0)
     assert math.hypot(east, south) == pytest.approx(1.0)
     assert wish(1, 0, "walk", 0.0) == pytest.approx((0.0, 0.98))
@@ -126,9 +126,7 @@ def test_on_ice_a_step_is_shorter_and_its_coasting_longer() -> None:
 
 
 @given(ticks, st.sampled_from([0.6, 0.8, 0.98]), st.floats(0.5, 2.0))
-def test_every_floor_and_effect_is_walked_on_as_its_displacement_says(
-    held: int, slipperiness: float, speed: float
-) -> None:
+def test_steps_on_any_ground_add_up_to_its_displacement(held: int, slipperiness: float, speed: float) -> None:
     ground = Ground(slipperiness, speed)
     feet, velocity, stands = (0.5, 64.0, 0.5), AT_REST, True
     for tick in range(held + 100):
@@ -175,7 +173,7 @@ def twice(apart: int) -> list[str]:
 
 
 @pytest.mark.parametrize("apart", range(2, SPRINT_WINDOW))
-def test_a_second_press_within_the_window_sprints_until_it_ends(apart: int) -> None:
+def test_a_second_press_within_the_sprint_window_sprints_until_it_is_released(apart: int) -> None:
     assert gaits_of([*twice(apart), "", "w"])[apart:] == [
         "sprint",
         "sprint",
@@ -184,11 +182,11 @@ def test_a_second_press_within_the_window_sprints_until_it_ends(apart: int) -> N
     ]
 
 
-def test_a_second_press_after_the_window_walks() -> None:
+def test_a_second_press_after_the_sprint_window_walks() -> None:
     assert set(gaits_of(twice(SPRINT_WINDOW))) == {"walk"}
 
 
-def test_one_long_press_never_sprints() -> None:
+def test_one_long_press_of_forward_never_sprints() -> None:
     assert set(gaits_of(["w"] * 20)) == {"walk"}
 
 
@@ -196,7 +194,7 @@ def test_a_player_who_may_not_sprint_walks() -> None:
     assert set(gaits_of(twice(3), may_sprint=False)) == {"walk"}
 
 
-def test_a_tick_of_sneaking_between_two_presses_keeps_them_apart() -> None:
+def test_a_tick_of_sneaking_between_two_presses_prevents_sprinting() -> None:
     assert gaits_of(["w", "s", "", "w"]) == ["walk", "walk", "sneak", "walk"]
 
 
@@ -223,13 +221,13 @@ def test_players_are_0_6_wide_and_1_8_high(other: Vector, is_touched: bool) -> N
     assert touches((0.0, 64.0, 0.0), other, HEIGHT) == is_touched
 
 
-def test_a_step_into_another_player_is_made_along_the_free_axis_alone() -> None:
+def test_a_step_into_another_player_is_kept_only_along_the_free_axis() -> None:
     before, after = (0.0, 64.0, 0.0), (0.5, 64.0, 0.1)
     assert kept_apart(before, after, [(1.0, 64.0, 0.0)], HEIGHT) == (0.0, 64.0, 0.1)
     assert kept_apart(before, after, [(5.0, 64.0, 0.0)], HEIGHT) == after
 
 
-def test_a_player_who_overlaps_another_may_move_out() -> None:
+def test_a_player_who_overlaps_another_can_move_out() -> None:
     assert kept_apart((0.0, 64.0, 0.0), (0.1, 64.0, 0.0), [(0.2, 64.0, 0.0)], HEIGHT) == (0.1, 64.0, 0.0)
 
 

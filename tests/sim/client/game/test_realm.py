@@ -19,14 +19,14 @@ def test_the_pitch_stops_at_straight_up_and_down(pitch: float, kept: float) -> N
     assert (player.yaw, player.pitch) == (400.0, kept)
 
 
-def test_a_player_that_goes_somewhere_stands_still_there() -> None:
+def test_go_to_leaves_the_player_standing_still() -> None:
     player = realm().player
     player.velocity = (1.0, 2.0, 3.0)
     player.go_to((1.0, 2.0, 3.0))
     assert (player.feet, player.velocity) == ((1.0, 2.0, 3.0), AT_REST)
 
 
-def test_survival_uses_blocks_up_and_creative_does_not() -> None:
+def test_placing_uses_up_blocks_in_survival_and_not_in_creative() -> None:
     player = realm().player
     player.hotbar[0] = Stack("stone", 2)
     player.use_one()
@@ -48,7 +48,7 @@ def test_blocks_join_their_kind_up_to_64_then_take_the_first_free_slot() -> None
     assert player.hotbar[:4] == [Stack("dirt", 1), Stack("stone", 64), Stack("stone", 1), None]
 
 
-def test_a_full_hotbar_takes_no_other_block() -> None:
+def test_a_full_hotbar_takes_no_block_of_another_kind() -> None:
     player = realm().player
     player.hotbar[:] = [Stack("dirt", 64)] * 9
     assert not player.take(Stack("stone", 1))
@@ -94,7 +94,7 @@ def test_a_written_world_is_read_back_with_its_player_and_rules(tmp_path: Path) 
     assert (read.edition, read.player_name, read.has_cheats) == (Edition("1.12.2"), "Somebody", False)
 
 
-def test_the_same_world_is_the_same_file_and_other_files_stay(tmp_path: Path) -> None:
+def test_writing_the_same_world_again_gives_the_same_file_and_keeps_other_files(tmp_path: Path) -> None:
     (tmp_path / "icon.png").write_bytes(b"icon")
     write_world(saved(), tmp_path)
     first = (tmp_path / "level.dat").read_bytes()

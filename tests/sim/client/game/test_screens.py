@@ -58,7 +58,7 @@ def test_no_two_buttons_overlap_and_all_lie_in_the_window(name: ScreenName, vers
         assert [other for other in buttons if other.contains(*button.middle)] == [button]
 
 
-def test_words_change_with_the_version() -> None:
+def test_titles_and_labels_change_with_the_version() -> None:
     assert shown("death", "1.16.5").texts[0].text == "You died!"
     assert shown("death", "1.17").texts[0].text == "You Died!"
     assert "Give Feedback" not in {button.label for button in shown("pause", "1.13.2").buttons}
@@ -147,13 +147,13 @@ def test_texts_stand_where_the_facts_say(name: ScreenName, version: str, texts: 
         ),
     ],
 )
-def test_every_button_stands_where_the_game_has_it(
+def test_every_button_stands_at_its_place_in_the_game(
     name: ScreenName, version: str, rects: list[tuple[int, int]]
 ) -> None:
     assert [(button.left, button.top) for button in shown(name, version).buttons] == rects
 
 
-def test_since_1_19_4_the_pause_menu_is_laid_out_from_its_height() -> None:
+def test_the_pause_menu_is_laid_out_by_the_windows_height_since_1_19_4() -> None:
     older, newer = (
         menu(MenuState("pause"), Edition(version), 427, 300).buttons[0].top for version in ("1.19.3", "1.19.4")
     )
@@ -162,7 +162,7 @@ def test_since_1_19_4_the_pause_menu_is_laid_out_from_its_height() -> None:
     assert menu(MenuState("pause"), Edition("1.19.3"), 427, 303).buttons[0].top == 83
 
 
-def test_in_a_low_window_the_way_out_of_a_lost_connection_stays_inside() -> None:
+def test_the_button_of_a_lost_connection_stays_inside_a_low_window() -> None:
     assert menu(MenuState("disconnected"), Edition("1.20.1"), 427, 80).buttons[0].top == 50
 
 

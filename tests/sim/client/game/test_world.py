@@ -12,7 +12,7 @@ names = st.sampled_from([AIR, "stone", "dirt"])
 
 
 @given(st.lists(st.tuples(blocks, blocks, names), max_size=8))
-def test_a_fill_is_the_same_as_putting_every_block(fills: list[tuple[Block, Block, str]]) -> None:
+def test_a_fill_does_the_same_as_putting_every_block(fills: list[tuple[Block, Block, str]]) -> None:
     world, expected = VirtualWorld(64, "dirt"), dict[Block, str]()
     for low, high, name in fills:
         changed = 0
@@ -28,7 +28,7 @@ def test_a_fill_is_the_same_as_putting_every_block(fills: list[tuple[Block, Bloc
         assert world.is_solid(*block) == (name != AIR)
 
 
-def test_only_what_differs_from_the_floor_is_built() -> None:
+def test_only_blocks_that_differ_from_the_bare_floor_count_as_built() -> None:
     world = VirtualWorld(64, "dirt")
     assert world.put((0, 64, 0), "stone")
     assert not world.put((0, 64, 0), "stone")
@@ -50,7 +50,7 @@ def is_floor(_x: int, y: int, _z: int) -> bool:
 @pytest.mark.parametrize(
     ("pitch", "cell"), [(72.8, 1), (65.0, 1), (47.3, 1), (47.1, 2), (73.0, 0), (33.0, 2), (90.0, 0)]
 )
-def test_the_pitch_chooses_the_cell_whose_floor_is_hit(pitch: float, cell: int) -> None:
+def test_the_pitch_decides_which_cells_floor_the_ray_hits(pitch: float, cell: int) -> None:
     hit = cast_ray(EYE, 0.0, pitch, 5.0, is_floor)
     assert hit is not None
     assert (hit.block, hit.before) == ((0, 63, cell), (0, 64, cell))
@@ -73,7 +73,7 @@ def test_yaw_turns_from_south_over_west_and_north_to_east(yaw: float, ahead: tup
     assert hit.block == ahead
 
 
-def test_beyond_the_reach_nothing_is_hit() -> None:
+def test_the_ray_hits_nothing_beyond_the_reach() -> None:
     length = 1.62 / math.sin(math.radians(30))
     assert cast_ray(EYE, 0.0, 30.0, length - 0.01, is_floor) is None
     assert cast_ray(EYE, 0.0, 30.0, length + 0.01, is_floor) is not None
@@ -81,7 +81,7 @@ def test_beyond_the_reach_nothing_is_hit() -> None:
 
 
 @given(st.floats(-180, 180), st.floats(-89, 89), st.floats(-3, 3), st.floats(-3, 3))
-def test_points_along_the_ray_lie_in_no_block_before_the_hit(yaw: float, pitch: float, x: float, z: float) -> None:
+def test_no_point_of_the_ray_before_the_hit_lies_in_a_block(yaw: float, pitch: float, x: float, z: float) -> None:
     def is_solid(block_x: int, y: int, block_z: int) -> bool:
         return (block_x * 31 + y * 17 + block_z * 7) % 4 == 0
 

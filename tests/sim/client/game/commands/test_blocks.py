@@ -14,7 +14,7 @@ def test_a_fill_covers_both_corners_in_any_order() -> None:
 
 
 @pytest.mark.parametrize(("version", "data"), [("1.12.2", "0 "), ("1.13", "")])
-def test_a_fill_that_keeps_fills_air_alone(version: str, data: str) -> None:
+def test_a_fill_with_keep_fills_only_air(version: str, data: str) -> None:
     played = realm(version)
     played.world.put((0, 63, 0), "air")
     played.world.put((1, 63, 0), "sand")
@@ -41,7 +41,7 @@ def test_a_fill_of_32768_blocks_is_the_largest() -> None:
 @pytest.mark.parametrize(
     ("version", "answer"), [("1.12.2", "The block couldn't be placed"), ("1.13", "Could not set the block")]
 )
-def test_a_block_that_is_there_already_is_refused(version: str, answer: str) -> None:
+def test_setting_a_block_that_is_there_already_is_refused(version: str, answer: str) -> None:
     assert answer_to("/setblock 0 63 0 dirt", realm(version)) == (answer, True)
 
 
@@ -54,7 +54,7 @@ def test_a_block_is_put_relative_to_the_player() -> None:
 @pytest.mark.parametrize(
     ("version", "answer"), [("1.12.2", "8 blocks cloned"), ("1.20.1", "Successfully cloned 8 blocks")]
 )
-def test_a_region_is_copied_to_where_its_lowest_corner_is_named(version: str, answer: str) -> None:
+def test_a_region_is_copied_to_the_named_lowest_corner(version: str, answer: str) -> None:
     played = realm(version)
     assert answer_to("/clone 1 64 1 0 62 0 10 70 20", played) == (answer, False)
     assert played.world.built() == {(x, y, z): "dirt" for x in (10, 11) for y in (70, 71) for z in (20, 21)}
@@ -77,7 +77,7 @@ def test_a_region_of_32768_blocks_is_the_largest() -> None:
     assert (text, is_error) == ("Too many blocks in the specified area (maximum 32768, specified 33792)", True)
 
 
-def test_1_12_compares_in_its_own_words() -> None:
+def test_1_12_answers_testforblocks_in_its_own_words() -> None:
     played = realm("1.12.2")
     assert answer_to("/testforblocks 0 64 0 3 65 3 9 80 9", played) == ("32 blocks compared", False)
     played.world.put((2, 64, 2), "stone")
@@ -85,12 +85,12 @@ def test_1_12_compares_in_its_own_words() -> None:
     assert answer_to("/testforblocks 0 64 0 3 65 3 9 80 9", played) == refused
 
 
-def test_newer_versions_do_not_know_the_older_command() -> None:
+def test_newer_versions_do_not_know_testforblocks() -> None:
     assert run("/testforblocks 0 64 0 3 65 3 9 80 9", realm())[1].text.endswith("<--[HERE]")
 
 
 @pytest.mark.parametrize("block", [(39, 64, 8), (-16, 64, 8), (8, 64, 31)])
-def test_blocks_in_the_next_chunk_are_loaded(block: tuple[int, int, int]) -> None:
+def test_only_blocks_within_the_view_distance_in_chunks_are_loaded(block: tuple[int, int, int]) -> None:
     played = realm()
     played.view_distance = 1
     x, y, z = block
@@ -110,7 +110,7 @@ def test_blocks_in_the_next_chunk_are_loaded(block: tuple[int, int, int]) -> Non
         ("1.12.2", "/testforblocks 8 64 31 8 64 32 8 70 8", "Cannot access blocks there"),
     ],
 )
-def test_what_is_not_loaded_is_refused(version: str, line: str, answer: str) -> None:
+def test_commands_on_blocks_that_are_not_loaded_are_refused(version: str, line: str, answer: str) -> None:
     played = realm(version)
     played.view_distance = 1
     assert answer_to(line, played) == (answer, True)
@@ -150,13 +150,13 @@ def test_a_condition_on_a_block_runs_its_command_or_gives_no_answer() -> None:
         "/execute if block 2 64 2 air",
     ],
 )
-def test_other_conditions_are_wrong(line: str) -> None:
+def test_other_conditions_of_execute_are_refused(line: str) -> None:
     played = realm()
     assert answer_to(line, played) == ("Incorrect argument for command", True)
     assert played.player.pitch == 10.0
 
 
-def test_1_12_detects_a_block() -> None:
+def test_1_12_executes_a_command_if_it_detects_a_block() -> None:
     played = realm("1.12.2")
     assert pitch_after("/execute @s ~ ~ ~ detect 0 64 0 minecraft:air 0 tp @s ~ ~ ~ 0 31", played) == 31
     refused = answer_to("/execute @s ~ ~ ~ detect 0 63 0 minecraft:air 0 tp @s ~ ~ ~ 0 32", played)
@@ -169,9 +169,7 @@ def test_1_12_detects_a_block() -> None:
     "inner", ["nonsense", "nonsense 1", "", "testforblocks 1", "execute if block 2 64 2 air run x"]
 )
 @pytest.mark.parametrize("condition", ["if", "unless"])
-def test_an_execute_of_an_unknown_command_is_an_unknown_command_whether_its_condition_holds_or_not(
-    condition: str, inner: str
-) -> None:
+def test_execute_with_an_unknown_command_is_refused_whatever_its_condition(condition: str, inner: str) -> None:
     played = realm("1.20.1")
     answers = run(f"/execute {condition} block 2 80 2 air run {inner}", played)
     assert answers[0] == Answer("Unknown or incomplete command, see below for error", is_error=True)

@@ -21,7 +21,7 @@ def answered(line: str, version: str = "1.20.1") -> list[str]:
 
 
 @pytest.mark.parametrize("version", VERSIONS)
-def test_every_command_of_a_reset_is_done_and_answered_without_an_error(version: str) -> None:
+def test_every_command_of_a_reset_succeeds_in_every_version(version: str) -> None:
     played, line = realm(version), load_scenario("line")
     profile = Profile(game=GameVersion(version=version), arena=Arena.around((0, 64, 0), "west"))
     played.world.put(profile.marked_arena().block_of((3, 4)), "stone")
@@ -45,7 +45,7 @@ def test_every_command_of_a_reset_is_done_and_answered_without_an_error(version:
         ("/teleport Player 0 64 0", (0.5, 64.0, 0.5)),
     ],
 )
-def test_a_teleport_leads_there_whole_numbers_to_the_blocks_middle(line: str, feet: tuple[float, ...]) -> None:
+def test_a_teleport_to_whole_numbers_leads_to_the_blocks_middle(line: str, feet: tuple[float, ...]) -> None:
     played = realm()
     assert not run(line, played)[0].is_error
     assert played.player.feet == feet
@@ -96,7 +96,7 @@ def test_each_version_answers_in_its_own_words(version: str, line: str, answer: 
         ("26.1", ["Unknown or incomplete command. See below for error", "nonsense 1<--[HERE]"]),
     ],
 )
-def test_an_unknown_command_is_an_error_and_does_nothing(version: str, answers: list[str]) -> None:
+def test_an_unknown_command_is_an_error_in_each_versions_words(version: str, answers: list[str]) -> None:
     assert answered("/nonsense 1", version) == answers
 
 
@@ -117,7 +117,7 @@ def test_an_unknown_command_is_an_error_and_does_nothing(version: str, answers: 
         ("1.20.1", "/tp Somebody 1 2 3"),
     ],
 )
-def test_what_another_version_or_nobody_writes_is_refused(version: str, line: str) -> None:
+def test_commands_of_other_versions_and_malformed_ones_are_refused(version: str, line: str) -> None:
     played = realm(version)
     assert all(answer.is_error for answer in run(line, played))
     assert played.player == realm(version).player
@@ -131,7 +131,7 @@ def test_what_another_version_or_nobody_writes_is_refused(version: str, line: st
         ("1.20.1", "Unknown or incomplete command, see below for error"),
     ],
 )
-def test_without_cheats_nothing_is_done(version: str, answer: str) -> None:
+def test_commands_are_refused_without_cheats(version: str, answer: str) -> None:
     played = realm(version)
     played.has_cheats = False
     assert run("/tp @s 0 0 0", played)[0] == Answer(answer, is_error=True)
@@ -159,11 +159,11 @@ def test_a_long_line_is_quoted_by_its_last_ten_letters() -> None:
 
 
 @pytest.mark.parametrize("line", ["", "   "])
-def test_an_empty_line_says_nothing(line: str) -> None:
+def test_an_empty_line_gets_no_answer(line: str) -> None:
     assert run(line, realm()) == []
 
 
-def test_without_feedback_only_errors_are_said() -> None:
+def test_only_errors_are_answered_without_command_feedback() -> None:
     played = realm()
     assert run("/gamerule sendCommandFeedback false", played) == []
     assert run("/time set noon", played) == []

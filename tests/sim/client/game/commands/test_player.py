@@ -15,7 +15,7 @@ def test_a_teleport_answers_with_the_position(version: str, answer: str) -> None
     assert answer_to("/tp @s 1 70 -2.0", realm(version)) == (answer, False)
 
 
-def test_a_teleport_turns_the_player_where_it_names_a_view() -> None:
+def test_a_teleport_that_names_a_view_turns_the_player() -> None:
     played = realm()
     answer_to("/tp 1 70 -2 ~15 -20", played)
     assert (played.player.yaw, played.player.pitch) == (45.0, -20.0)
@@ -24,7 +24,7 @@ def test_a_teleport_turns_the_player_where_it_names_a_view() -> None:
 
 
 @pytest.mark.parametrize("line", ["/tp", "/tp 1 2", "/tp 1 2 3 4", "/tp @s 1 2 3 4", "/tp 1 2 3 4 5 6"])
-def test_a_teleport_without_a_whole_position_is_wrong(line: str) -> None:
+def test_a_teleport_with_an_incomplete_position_or_view_is_refused(line: str) -> None:
     assert answer_to(line, realm()) == ("Incorrect argument for command", True)
 
 
@@ -45,11 +45,11 @@ def test_the_game_mode_is_named_or_abbreviated(version: str, word: str, mode: st
 
 
 @pytest.mark.parametrize(("version", "word"), [("1.13", "s"), ("1.12.2", "spectator"), ("1.20.1", "adventure")])
-def test_other_game_modes_are_wrong(version: str, word: str) -> None:
+def test_unknown_game_modes_are_refused(version: str, word: str) -> None:
     assert answer_to(f"/gamemode {word}", realm(version))[1]
 
 
-def test_given_blocks_are_one_unless_counted() -> None:
+def test_give_adds_one_block_unless_a_count_is_given() -> None:
     played = realm()
     assert answer_to("/give @s stone", played) == ("Gave 1 [Stone] to Player", False)
     answer_to("/give Player minecraft:oak_planks 5", played)
@@ -64,7 +64,7 @@ def test_clearing_counts_what_it_removes() -> None:
     assert answer_to("/clear", played) == ("No items were found on player Player", True)
 
 
-def test_a_slot_is_replaced_since_1_17() -> None:
+def test_item_replace_fills_a_slot_from_1_17_on() -> None:
     played = realm()
     assert answer_to("/item replace entity @s hotbar.8 with minecraft:stone 64", played) == (
         "Replaced a slot on Player with [Stone]",
@@ -85,7 +85,7 @@ def test_a_slot_is_replaced_since_1_17() -> None:
         "/item replace entity @s hotbar.-1 with stone",
     ],
 )
-def test_another_slot_or_another_word_is_wrong(line: str) -> None:
+def test_item_replace_with_another_slot_or_word_is_refused(line: str) -> None:
     played = realm()
     assert answer_to(line, played) == ("Incorrect argument for command", True)
     assert played.player.hotbar == [None] * 9
@@ -98,7 +98,7 @@ def test_another_slot_or_another_word_is_wrong(line: str) -> None:
         ("1.13", "hotbar.2", "Replaced a slot on Player with [Stone]"),
     ],
 )
-def test_a_slot_is_replaced_before_1_17(version: str, slot: str, answer: str) -> None:
+def test_replaceitem_fills_a_slot_before_1_17(version: str, slot: str, answer: str) -> None:
     played = realm(version)
     assert answer_to(f"/replaceitem entity @s {slot} stone 3", played) == (answer, False)
     assert played.player.hotbar[2] == Stack("stone", 3)
@@ -117,5 +117,5 @@ def test_a_slot_is_replaced_before_1_17(version: str, slot: str, answer: str) ->
         ("1.20.1", "/kill @e", ("No entity was found", True)),
     ],
 )
-def test_effects_and_kills_are_answered_in_words(version: str, line: str, answer: tuple[str, bool]) -> None:
+def test_effect_and_kill_get_the_answers_of_the_version(version: str, line: str, answer: tuple[str, bool]) -> None:
     assert answer_to(line, realm(version)) == answer

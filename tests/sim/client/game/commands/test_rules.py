@@ -15,7 +15,7 @@ def test_a_rule_is_set_by_the_name_of_its_version() -> None:
 
 
 @pytest.mark.parametrize("value", ["yes", "-1", "True"])
-def test_a_rule_is_true_false_or_a_number(value: str) -> None:
+def test_a_value_other_than_true_false_or_a_number_is_refused(value: str) -> None:
     played = realm()
     assert answer_to(f"/gamerule randomTickSpeed {value}", played) == WRONG
     assert played.rules == {}
@@ -28,7 +28,7 @@ def test_the_time_is_a_word_or_ticks(word: str, ticks: int) -> None:
     assert played.day_time == ticks
 
 
-def test_only_setting_the_time_is_known() -> None:
+def test_time_commands_other_than_set_are_refused() -> None:
     played = realm()
     assert answer_to("/time add 5", played) == WRONG
     assert played.day_time == 6000
@@ -40,5 +40,5 @@ def test_the_weather_is_clear_rain_or_thunder() -> None:
     assert answer_to("/weather snow", realm()) == WRONG
 
 
-def test_the_difficulty_is_answered() -> None:
+def test_setting_the_difficulty_is_answered() -> None:
     assert answer_to("/difficulty peaceful", realm()) == ("The difficulty has been set to Peaceful", False)

@@ -27,7 +27,7 @@ def test_a_coordinate_is_relative_or_in_the_middle_of_a_whole_block(word: str, c
     assert coordinate(word, 3.25, centred=centred) == value
 
 
-def test_a_block_is_named_by_three_words_relative_to_the_players() -> None:
+def test_three_words_name_a_block_absolutely_or_relative_to_the_players() -> None:
     assert block_position(realm(), ["~", "~-1", "~3"]) == (8, 63, 11)
     assert block_position(realm(), ["-1", "0", "7"]) == (-1, 0, 7)
     with pytest.raises(ValueError, match="argument"):
@@ -35,7 +35,7 @@ def test_a_block_is_named_by_three_words_relative_to_the_players() -> None:
 
 
 @pytest.mark.parametrize("word", ["@s", "@p", "@a", "Player"])
-def test_the_words_after_the_player_remain(word: str) -> None:
+def test_after_player_returns_the_words_behind_the_players_name(word: str) -> None:
     assert after_player(realm(), [word, "a", "b"]) == ["a", "b"]
 
 
@@ -54,6 +54,6 @@ def test_blocks_have_the_names_of_the_version(version: str, known: str, unknown:
         block_name(realm(version), unknown)
 
 
-def test_a_block_is_displayed_in_words() -> None:
+def test_a_blocks_display_name_is_in_words() -> None:
     assert display_name("smooth_stone") == "Smooth Stone"
     assert display_name("planks") == "Oak Wood Planks"
