@@ -55,11 +55,11 @@ def url(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
 
 
 @pytest.fixture(autouse=True)
-def own_desk(monkeypatch: pytest.MonkeyPatch) -> None:
+def own_mailbox(monkeypatch: pytest.MonkeyPatch) -> None:
     """Give each test a mailbox of its own: one that is closed stays so."""
     made = Mailbox()
     for module in (mailboxes, serve):
-        monkeypatch.setattr(module, "mailbox", made)
+        monkeypatch.setattr(module, "process_mailbox", made)
 
 
 @pytest.fixture
