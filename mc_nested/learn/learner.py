@@ -73,7 +73,7 @@ class Learner:
         greedy = (uniforms[:, 0] >= epsilon).nonzero()[0]
         if len(greedy):
             named = greedy if rows is None else rows[greedy]
-            actions[greedy] = self.engine.q_values(self.states.kept(states[greedy]), named).argmax(-1)
+            actions[greedy] = self.engine.q_values(self.states.encoded(states[greedy]), named).argmax(-1)
         return actions
 
     def store(
@@ -88,7 +88,7 @@ class Learner:
         """Store one transition for each of the named rows (k,), states (k, …); no bootstrap after termination."""
         if self.priorities and len(rows):
             self.priorities.add(rows, self.replay.added[rows] % self.replay.capacity)
-        both = self.states.kept(np.array((states, next_states)))
+        both = self.states.encoded(np.array((states, next_states)))
         self.replay.add(rows, Transitions(both, actions, rewards, self.discounts(terminated)))
 
     def discounts(self, terminated: Bools) -> Float64s:

@@ -1,4 +1,4 @@
-"""A picture of what a run knows of its arena, and of what it spent its real episodes on."""
+"""A picture of what a run knows of its arena, and of where the blocks of its real episodes went."""
 
 from pathlib import Path
 
@@ -32,20 +32,20 @@ SPENDING = {
 }
 
 
-def draw_map(path: Path, title: str, seen: KnownArena) -> None:
+def draw_map(path: Path, title: str, known: KnownArena) -> None:
     """Write a PNG: the arena from above, the far edge on top, and beside it a bar for each remembered episode."""
     figure = Figure(figsize=(12, 6.2), dpi=120, layout="constrained")
-    arena, spent = figure.subplots(1, 2)
+    arena, episodes = figure.subplots(1, 2)
     figure.suptitle(title, parse_math=False)  # users name scenarios, so dollar signs may appear
-    _draw_arena(arena, seen)
-    _draw_spent(spent, seen)
+    _draw_arena(arena, known)
+    _draw_episodes(episodes, known)
     figure.savefig(path, format="png", metadata={"Software": None})
 
 
-def _draw_arena(axes: Axes, seen: KnownArena) -> None:
-    size = len(seen.cells)
+def _draw_arena(axes: Axes, known: KnownArena) -> None:
+    size = len(known.cells)
     axes.imshow(
-        seen.cells.T,
+        known.cells.T,
         cmap=ListedColormap([COLORS[belief] for belief in Belief]),
         vmin=-0.5,
         vmax=len(Belief) - 0.5,
@@ -55,10 +55,10 @@ def _draw_arena(axes: Axes, seen: KnownArena) -> None:
     axes.set_yticks(np.arange(-0.5, size), minor=True)
     axes.grid(which="minor", color="white", linewidth=1.0)
     axes.tick_params(which="minor", length=0)
-    if seen.built_last:
-        across, forward = zip(*sorted(seen.built_last), strict=True)
+    if known.built_last:
+        across, forward = zip(*sorted(known.built_last), strict=True)
         axes.scatter(across, forward, marker="s", s=3600 / size, facecolors="none", edgecolors=BUILT, linewidths=2)
-    axes.set(xlabel="x", ylabel="y", title=f"{seen.known_to_pay} cells known to pay")
+    axes.set(xlabel="x", ylabel="y", title=f"{known.known_to_pay} cells known to pay")
     legend: list[Patch | Line2D] = [Patch(color=COLORS[belief], label=NAMES[belief]) for belief in Belief]
     legend.append(
         Line2D([], [], color=BUILT, marker="s", fillstyle="none", linestyle="", label="built in the last episode")
@@ -66,20 +66,20 @@ def _draw_arena(axes: Axes, seen: KnownArena) -> None:
     axes.legend(handles=legend, loc="upper center", bbox_to_anchor=(0.5, -0.1), ncols=3, frameon=False)
 
 
-def _draw_spent(axes: Axes, seen: KnownArena) -> None:
-    numbers = [spent.episode for spent in seen.spent]
+def _draw_episodes(axes: Axes, known: KnownArena) -> None:
+    numbers = [blocks.episode for blocks in known.episodes]
     heights = {
-        "built": [spent.built for spent in seen.spent],
-        "new_paid": [spent.new_paid for spent in seen.spent],
-        "new_not": [spent.new - spent.new_paid for spent in seen.spent],
-        "other": [spent.other for spent in seen.spent],
+        "built": [blocks.built for blocks in known.episodes],
+        "new_paid": [blocks.new_paid for blocks in known.episodes],
+        "new_not": [blocks.new - blocks.new_paid for blocks in known.episodes],
+        "other": [blocks.other for blocks in known.episodes],
     }
     below = np.zeros(len(numbers))
     for name, (color, label) in SPENDING.items():
         axes.bar(numbers, heights[name], bottom=below, color=color, label=label)
         below += heights[name]
-    probing = sum(spent.probes for spent in seen.spent)
-    building = sum(spent.built > 0 and not spent.probes for spent in seen.spent)
+    probing = sum(blocks.probes for blocks in known.episodes)
+    building = sum(blocks.built > 0 and not blocks.probes for blocks in known.episodes)
     axes.set(
         xlabel="real episode",
         ylabel="blocks",

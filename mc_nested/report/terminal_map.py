@@ -24,21 +24,21 @@ STYLES = {
 NAMES = {"o": "pays", "-": "doesn't", "?": "believed", ".": "unknown", "#": "built, pays", "x": "built elsewhere"}
 
 
-def belief_rows(seen: KnownArena) -> tuple[str, ...]:
+def belief_rows(known: KnownArena) -> tuple[str, ...]:
     """Return the sign of each cell's belief, a text a row, the nearest row first."""
-    size = len(seen.cells)
-    return tuple("".join(SIGNS[Belief(int(seen.cells[x, y]))] for x in range(size)) for y in range(size))
+    size = len(known.cells)
+    return tuple("".join(SIGNS[Belief(int(known.cells[x, y]))] for x in range(size)) for y in range(size))
 
 
-def map_view(seen: KnownArena) -> Group:
+def map_view(known: KnownArena) -> Group:
     """Return the arena from above, the far edge on top, and what each sign means."""
-    size = len(seen.cells)
+    size = len(known.cells)
     rows = []
     for y in reversed(range(size)):
         row = Text("  ", no_wrap=True)
         for x in range(size):
-            belief = Belief(int(seen.cells[x, y]))
-            sign = BUILT_SIGNS[belief is Belief.PAYS] if (x, y) in seen.built_last else SIGNS[belief]
+            belief = Belief(int(known.cells[x, y]))
+            sign = BUILT_SIGNS[belief is Belief.PAYS] if (x, y) in known.built_last else SIGNS[belief]
             row.append(f"{sign} ", style=STYLES[sign])
         rows.append(row)
     legend = [Text.assemble((f"{sign} ", STYLES[sign]), name) for sign, name in NAMES.items()]

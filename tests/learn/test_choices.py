@@ -52,7 +52,7 @@ def transitions(learner: Learner, row: int = 0) -> list[tuple[int, int, float, i
 
 
 def index(learner: Learner, *state: int) -> int:
-    return int(learner.states.kept(np.array([state]))[0])
+    return int(learner.states.encoded(np.array([state]))[0])
 
 
 class Follows:

@@ -17,7 +17,7 @@ def learner(highest: list[list[int]], actions: int = 8) -> Learner:
 
 
 def values(learner: Learner, states: list[list[int]]) -> np.ndarray:
-    return learner.engine.q_values(learner.states.kept(np.array(states)))
+    return learner.engine.q_values(learner.states.encoded(np.array(states)))
 
 
 def test_a_number_below_epsilon_explores_and_the_second_says_where() -> None:

@@ -162,7 +162,7 @@ def test_evaluations_are_neither_stored_nor_counted_as_training(three_runs: Trai
 def test_the_main_agents_one_transition_is_the_start_its_choice_and_the_score(three_runs: Trainer) -> None:
     kept = kept_by(main_of(three_runs.agent), 1)
     rows = [row for row in three_runs.episode_rows if row.trial == 1]
-    start = main_of(three_runs.agent).states.kept(np.array([7, 14, 11]))
+    start = main_of(three_runs.agent).states.encoded(np.array([7, 14, 11]))
     assert kept["states"][:, 0].tolist() == [start] * 20
     assert kept["actions"].tolist() == [row.material for row in rows]
     assert kept["rewards"].tolist() == [row.score for row in rows]
@@ -557,7 +557,7 @@ def test_the_single_agent_learns_from_its_choice_as_from_any_action() -> None:
         kept = kept_by(trainer.agent.low_level, run)
         rows = [row for row in trainer.episode_rows if row.trial == run]
         begins = np.concatenate(([0], np.cumsum([row.steps for row in rows])[:-1]))
-        unchosen = trainer.agent.low_level.states.kept(np.array([7, 14, 11, 0]))
+        unchosen = trainer.agent.low_level.states.encoded(np.array([7, 14, 11, 0]))
         assert kept["states"][begins, 0].tolist() == [unchosen] * 60
         choices = kept["actions"][begins].astype(int)
         assert [row.material for row in rows] == np.where(choices < 2, choices, -1).tolist()

@@ -9,7 +9,7 @@ from matplotlib.colors import to_rgb
 
 from mc_nested.learn.imagination.beliefs import Belief
 from mc_nested.report.arena_map import COLORS, SPENDING, draw_map
-from tests.report.made_seen import made_seen
+from tests.report.made_known_arena import made_known_arena
 
 
 def area_of(path: Path, color: str) -> int:
@@ -21,7 +21,7 @@ def area_of(path: Path, color: str) -> int:
 
 
 def test_each_belief_has_the_area_of_its_cells(tmp_path: Path) -> None:
-    draw_map(tmp_path / "map.png", "line", made_seen(episodes=0))
+    draw_map(tmp_path / "map.png", "line", made_known_arena(episodes=0))
     believed = area_of(tmp_path / "map.png", COLORS[Belief.BELIEVED])
     unknown = area_of(tmp_path / "map.png", COLORS[Belief.UNKNOWN])
     assert believed > 5000
@@ -29,8 +29,8 @@ def test_each_belief_has_the_area_of_its_cells(tmp_path: Path) -> None:
 
 
 def test_an_episode_has_a_bar_of_what_its_blocks_were_spent_on(tmp_path: Path) -> None:
-    draw_map(tmp_path / "none.png", "line", made_seen(episodes=0))
-    draw_map(tmp_path / "map.png", "line", made_seen(episodes=3))
+    draw_map(tmp_path / "none.png", "line", made_known_arena(episodes=0))
+    draw_map(tmp_path / "map.png", "line", made_known_arena(episodes=3))
     # Of each colour (1, 2, 3), (1, 1, 1), (1, 1, 1) and (1, 1, 1) blocks in three episodes.
     areas = [
         area_of(tmp_path / "map.png", color) - area_of(tmp_path / "none.png", color) for color, _ in SPENDING.values()
@@ -40,7 +40,7 @@ def test_an_episode_has_a_bar_of_what_its_blocks_were_spent_on(tmp_path: Path) -
 
 @pytest.mark.parametrize("size", [4, 32])
 def test_an_arena_of_any_size_is_a_picture_of_the_same_size(tmp_path: Path, size: int) -> None:
-    draw_map(tmp_path / "map.png", "a $ in a name", made_seen(size, episodes=100))
+    draw_map(tmp_path / "map.png", "a $ in a name", made_known_arena(size, episodes=100))
     picture = cv2.imread(str(tmp_path / "map.png"))
     assert picture is not None
     assert picture.shape == (744, 1440, 3)

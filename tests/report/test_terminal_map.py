@@ -3,13 +3,13 @@
 from rich.console import Console
 
 from mc_nested.report.terminal_map import map_view
-from tests.report.made_seen import made_seen
+from tests.report.made_known_arena import made_known_arena
 
 
 def test_every_belief_and_what_was_built_last_have_their_signs() -> None:
     console = Console(width=80, force_terminal=False)
     with console.capture() as capture:
-        console.print(map_view(made_seen()))
+        console.print(map_view(made_known_arena()))
     lines = [line.rstrip() for line in capture.get().splitlines()]
     assert lines[:4] == ["  . . . x", "  . . . .", "  . . . .", "  # o ? ."]
     assert lines[4] == "  o pays  - doesn't  ? believed  . unknown  # built, pays  x built elsewhere"
@@ -19,7 +19,7 @@ def test_every_belief_and_what_was_built_last_have_their_signs() -> None:
 def test_a_narrow_terminal_has_the_whole_legend_in_two_lines() -> None:
     console = Console(width=50, force_terminal=False)
     with console.capture() as capture:
-        console.print(map_view(made_seen()))
+        console.print(map_view(made_known_arena()))
     lines = [line.rstrip() for line in capture.get().splitlines()]
     assert len(lines) == 6
     for part in ("o pays", "- doesn't", "? believed", ". unknown", "# built, pays", "x built elsewhere"):

@@ -35,7 +35,7 @@ class States(Protocol):
     def shape(self) -> tuple[int, ...]:
         """The shape of what a replay keeps of one state; () for a single number."""
 
-    def kept(self, states: NDArray[Any]) -> NDArray[Any]:
+    def encoded(self, states: NDArray[Any]) -> NDArray[Any]:
         """Return what a replay keeps of the states (…): (…, *shape), whole numbers."""
 
 
@@ -56,7 +56,7 @@ class PlaneStates(NamedTuple):
     def highest(self) -> int:
         return 255
 
-    def kept(self, states: NDArray[Any]) -> NDArray[Any]:
+    def encoded(self, states: NDArray[Any]) -> NDArray[Any]:
         return states
 
 
@@ -118,7 +118,7 @@ class StateSpace:
         """() of an index."""
         return ()
 
-    def kept(self, states: Integers) -> Int64s:
+    def encoded(self, states: Integers) -> Int64s:
         """Return the index (…) of each state (…, width), which is all that a replay keeps of it."""
         return self.index(states)
 

@@ -225,7 +225,7 @@ class Imagination:
         return frozenset(cell for cell in landings if beliefs.cells[cell] in (Belief.UNKNOWN, Belief.BELIEVED))
 
     def known_arena(self, run: int) -> KnownArena:
-        """Return what that run knows of its arena now, and what it has spent its real episodes on."""
+        """Return what that run knows of its arena now, and where the blocks of its real episodes went."""
         steps, here = self._experience[run].steps, self._surroundings[run]
         lands = self.rules(run).lands
         beliefs = believe(steps, lands, here.size, here.start[2])

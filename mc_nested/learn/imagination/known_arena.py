@@ -1,4 +1,4 @@
-"""What a run has seen of its arena, for those who watch: what it believes, and what it spent its episodes on."""
+"""What a run knows of its arena, for those who watch: what it believes, and where the blocks of its episodes went."""
 
 from dataclasses import dataclass
 from typing import NamedTuple
@@ -9,8 +9,8 @@ from mc_nested.learn.imagination.beliefs import Belief, Beliefs
 from mc_nested.learn.imagination.experience import Experience
 
 
-class Spent(NamedTuple):
-    """What the blocks of one real episode were spent on; ``episode`` counts from 1.
+class EpisodeBlocks(NamedTuple):
+    """Counts of where the blocks of one real episode landed; ``episode`` counts from 1.
 
     ``new`` landed in cells that were never tried before, ``new_paid`` of them on the design; ``built`` landed where it
     was known to pay, and did; ``other`` is the rest.
@@ -33,12 +33,12 @@ class KnownArena:
     """What one run knows of its arena.
 
     ``cells`` (size, size) holds a Belief for each; ``built_last`` are the cells built in its last real episode,
-    ``spent`` the episodes that it remembers, oldest first; ``explores``: too few paying cells are known.
+    ``episodes`` those that it remembers, oldest first; ``explores``: too few paying cells are known.
     """
 
     cells: Int8s
     built_last: frozenset[Cell]
-    spent: tuple[Spent, ...]
+    episodes: tuple[EpisodeBlocks, ...]
     explores: bool
 
     @property
@@ -49,16 +49,16 @@ class KnownArena:
 
 def known_arena(experience: Experience, lands: Cell, beliefs: Beliefs) -> KnownArena:
     """Return what that experience shows if blocks land at ``lands`` from the agent, and the beliefs that follow."""
-    episodes = _by_episode(experience.steps, experience.first_of_episode)
-    own = min(experience.episodes, len(episodes))
-    earlier, remembered = episodes[: len(episodes) - own], episodes[len(episodes) - own :]
+    all_episodes = _by_episode(experience.steps, experience.first_of_episode)
+    own = min(experience.episodes, len(all_episodes))
+    earlier, remembered = all_episodes[: len(all_episodes) - own], all_episodes[len(all_episodes) - own :]
     tried: dict[Cell, bool] = {}
     for steps in earlier:
-        _spend(0, steps, lands, tried)
+        _blocks_of(0, steps, lands, tried)
     first = experience.episodes - own + 1
-    spent = tuple(_spend(first + at, steps, lands, tried) for at, steps in enumerate(remembered))
+    episodes = tuple(_blocks_of(first + at, steps, lands, tried) for at, steps in enumerate(remembered))
     last = frozenset(cell for cell, _ in _landings(remembered[-1], lands)) if remembered else frozenset[Cell]()
-    return KnownArena(beliefs.cells, last, spent, beliefs.explores)
+    return KnownArena(beliefs.cells, last, episodes, beliefs.explores)
 
 
 def _by_episode(steps: Int64s, first_of_episode: Int64s) -> list[Int64s]:
@@ -72,8 +72,8 @@ def _landings(steps: Int64s, lands: Cell) -> list[tuple[Cell, int]]:
     return [((x + lands[0], y + lands[1]), paid) for x, y, paid in used[:, [4, 5, 7]].tolist()]
 
 
-def _spend(episode: int, steps: Int64s, lands: Cell, tried: dict[Cell, bool]) -> Spent:
-    """Return what those steps were spent on; ``tried`` (whether each cell paid when last tried) gets what they try."""
+def _blocks_of(episode: int, steps: Int64s, lands: Cell, tried: dict[Cell, bool]) -> EpisodeBlocks:
+    """Return where those steps' blocks landed; ``tried`` (whether each cell paid when last tried) gets theirs."""
     new = new_paid = built = other = 0
     for cell, paid in _landings(steps, lands):
         if paid < 0:
@@ -86,4 +86,4 @@ def _spend(episode: int, steps: Int64s, lands: Cell, tried: dict[Cell, bool]) ->
         else:
             other += 1
         tried[cell] = bool(paid)
-    return Spent(episode, new, new_paid, built, other)
+    return EpisodeBlocks(episode, new, new_paid, built, other)

@@ -38,7 +38,7 @@ def scores_of_materials(
 
 def learn_choice(main: Learner, row: int, start: Int64s, scores: Float64s) -> None:
     """Update that row of the main agent until its values of the start state (3,) are the scores (materials,)."""
-    rows, state = np.array([row]), main.states.kept(start[None])
+    rows, state = np.array([row]), main.states.encoded(start[None])
     batch = main.engine.rule.batch
     actions = np.arange(batch) % len(scores)
     imagined = Batch(

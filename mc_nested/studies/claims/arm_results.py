@@ -89,9 +89,9 @@ class ArmResults:
         """Each trial's last greedy score, (trials,)."""
         return np.array([trial.scores[-1] for trial in self.trials])
 
-    def spent(self, of: Budget) -> int:
+    def least_cost(self, of: Budget) -> int:
         """Return the least that a trial had spent at its last evaluation."""
-        return min(_spent(trial.outcome.evaluations[-1], of) for trial in self.trials)
+        return min(_cost(trial.outcome.evaluations[-1], of) for trial in self.trials)
 
     def within(self, budget: int, of: Budget) -> Float64s:
         """Return last_ten of the evaluations until which no more was spent, (trials,); the first always counts."""
@@ -104,7 +104,7 @@ class ArmResults:
     @staticmethod
     def _until(trial: Trial, budget: int, of: Budget) -> list[float]:
         first, *others = trial.outcome.evaluations
-        return [first.score, *(each.score for each in others if _spent(each, of) <= budget)]
+        return [first.score, *(each.score for each in others if _cost(each, of) <= budget)]
 
 
 Arms = dict[tuple[str, str, str], ArmResults]
@@ -116,6 +116,6 @@ def arm_results(trials: Iterable[Trial]) -> Arms:
     return {each.key: each for each in map(ArmResults, on_each(trials).values())}
 
 
-def _spent(evaluated: Evaluated, of: Budget) -> int:
+def _cost(evaluated: Evaluated, of: Budget) -> int:
     found = evaluated.trained_steps if of == "steps" else evaluated.updates
     return found or 0

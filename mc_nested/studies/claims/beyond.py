@@ -97,7 +97,7 @@ def designs_of(arms: Sequence[ArmResults]) -> list[str]:
 
 def equal_budget(arms: Sequence[ArmResults], of: Budget) -> int:
     """Return what every trial of these had spent in the end."""
-    return min(arm.spent(of) for arm in arms)
+    return min(arm.least_cost(of) for arm in arms)
 
 
 def _of_images(arms: Arms) -> list[Claim]:

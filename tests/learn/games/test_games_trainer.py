@@ -313,7 +313,7 @@ def test_every_step_is_a_transition_of_the_agent_that_acted_and_the_choice_is_on
     assert replay.added.tolist() == [played.steps if at == row else 0 for at in range(states.rows)]
     held = replay.gather(np.array([row]), np.arange(played.steps)[None])
     materials = materials_of(agent, played, plan.material)
-    seen = states.kept(agent.low_level_states(played.observations, materials))
+    seen = states.encoded(agent.low_level_states(played.observations, materials))
     np.testing.assert_array_equal(held.states[:, 0], [seen[:-1], seen[1:]])
     np.testing.assert_array_equal(held.actions[0], played.actions)
     np.testing.assert_array_equal(held.rewards[0], played.rewards)

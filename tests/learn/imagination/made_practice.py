@@ -34,6 +34,6 @@ def learner_of(rows: int = 1, seed: int = 0) -> Learner:
 def real_of(learner: Learner, *steps: tuple[list[int], int, list[int], int]) -> RealTransitions:
     """Make transitions of the state before, the action, the state after, and the arena's cell where a block landed."""
     before, actions, after, landed = (np.array([step[part] for step in steps], dtype=np.int64) for part in range(4))
-    index = learner.states.kept
+    index = learner.states.encoded
     states, next_states = (index(each.reshape(-1, 4)) for each in (before, after))
     return RealTransitions(states, next_states, actions, landed, after.reshape(-1, 4)[:, 2] == 0)

@@ -46,7 +46,7 @@ def test_the_last_episodes_of_a_material_are_what_it_brings() -> None:
 def test_the_learnt_values_are_close_to_the_scores(scores: tuple[float, ...]) -> None:
     main = main_of(1)
     learn_choice(main, 0, START, np.array(scores))
-    values = main.engine.q_values(main.states.kept(START[None]))[0]
+    values = main.engine.q_values(main.states.encoded(START[None]))[0]
     # The last update begins within CLOSE; it moves each value a little more.
     np.testing.assert_allclose(values, scores, atol=1.2 * CLOSE)
     if abs(scores[0] - scores[1]) > 2.4 * CLOSE:

@@ -165,13 +165,13 @@ def test_the_real_transitions_are_in_its_replay_and_the_imagined_ones_follow() -
     )
     _, practice = practised(learner, goal=UNREACHABLE, real=real)
     replay = practice._replay
-    assert replay.states[:2].tolist() == learner.states.kept(np.array([[2, 1, 3, 1], [2, 2, 1, 1]])).tolist()
-    assert replay.next_states[:2].tolist() == learner.states.kept(np.array([[2, 2, 2, 1], [1, 2, 0, 1]])).tolist()
+    assert replay.states[:2].tolist() == learner.states.encoded(np.array([[2, 1, 3, 1], [2, 2, 1, 1]])).tolist()
+    assert replay.next_states[:2].tolist() == learner.states.encoded(np.array([[2, 2, 2, 1], [1, 2, 0, 1]])).tolist()
     assert replay.actions[:2].tolist() == [Action.FD, Action.LD]
     assert replay.landed[:2].tolist() == [index_of((2, 3), arena), index_of((1, 3), arena)]
     assert replay.terminated[:2].tolist() == [False, True]
     added = int(replay.added[0])
-    begins = learner.states.kept(np.array([*BENT.start_state, 1]))
+    begins = learner.states.encoded(np.array([*BENT.start_state, 1]))
     assert replay.states[2] == begins, "the first imagined episode"
     imagined = replay.states[2:added]
     assert (imagined % 2 == 1).all(), "its material comes last in a state"

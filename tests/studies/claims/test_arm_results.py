@@ -19,8 +19,8 @@ def test_the_optimum_is_reached_where_a_greedy_episode_first_scores_it() -> None
 
 def test_a_budget_is_what_every_trial_had_spent() -> None:
     own = arm("materials", "nested", [trial_of([1.0] * 3), trial_of([1.0] * 2, steps_each=200)])
-    assert own.spent("steps") == 300
-    assert own.spent("updates") == 180
+    assert own.least_cost("steps") == 300
+    assert own.least_cost("updates") == 180
 
 
 def test_within_a_budget_what_was_evaluated_later_does_not_count() -> None:
