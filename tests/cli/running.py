@@ -7,7 +7,9 @@ from typing import Any
 
 import pytest
 
+from mc_nested.arena.scenario import Scenario
 from mc_nested.cli.app import main
+from tests.learn.made_experiments import scenario_text, small_preset_text
 
 TRAIN = ["train", "--episodes", "40", "--trials", "2", "--seed", "3"]
 
@@ -22,6 +24,17 @@ def run(*arguments: str | Path) -> int:
 def table(path: Path) -> list[dict[str, str]]:
     with path.open(newline="") as file:
         return list(csv.DictReader(file))
+
+
+def write_study(folder: Path, *scenarios: Scenario) -> list[str]:
+    """Write these designs and a small preset into the folder; return the words that name them, and two trials."""
+    words = []
+    for scenario in scenarios:
+        file = folder / f"{scenario.name}.toml"
+        file.write_text(scenario_text(scenario), "utf-8")
+        words += ["--scenario", str(file)]
+    (folder / "small.toml").write_text(small_preset_text(), "utf-8")
+    return [*words, "--preset", str(folder / "small.toml"), "--trials", "2"]
 
 
 def check_mistake(

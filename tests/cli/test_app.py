@@ -121,6 +121,7 @@ def test_a_mistake_is_one_line_and_exit_code_2(
     ("words", "says"),
     [
         (["runs", "--json", "list"], "write --json at the end: mc-nested runs list --json"),
+        (["profiles", "--json", "list"], "write --json at the end: mc-nested profiles list --json"),
         (["recordings", "--json", "trim"], "mc-nested recordings trim takes no --json: leave it out"),
         (["train", "--seed", "3", "serve"], "mc-nested train serve takes no --seed: leave it out"),
         (

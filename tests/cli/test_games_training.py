@@ -1,6 +1,5 @@
 """``mc-nested train --games`` and ``train serve``: processes of their own, over a real scheduler."""
 
-import csv
 import json
 import os
 import signal
@@ -34,7 +33,7 @@ from mc_nested.workers.games.game_server import GameServer, OpenGame
 from mc_nested.workers.games.game_worker import GameWorker
 from mc_nested.workers.games.order import GameAnswer, GameOrder
 from sim.virtual_games import VirtualPlay, open_virtual_games
-from tests.cli.running import run
+from tests.cli.running import run, table
 from tests.dask_fixture import LEFTOVERS, leftovers
 from tests.learn.made_experiments import DOT, scenario_text
 from tests.workers.cluster.dask_programs import scheduler, tls_words
@@ -91,6 +90,14 @@ class Served:
 def served(url: str, tmp_path: Path) -> Iterator[Served]:
     with ExitStack() as stack:
         yield Served(url, tmp_path, stack)
+
+
+def begun_beside(served: Served, words: list[str], until: str = "episode") -> subprocess.Popen[str]:
+    """Begin a training in a process of its own, and wait until the game named one says these words."""
+    training = subprocess.Popen([sys.executable, "-m", "mc_nested.cli", *words], stderr=subprocess.PIPE, text=True)
+    while training.poll() is None and until not in served.said("one"):
+        time.sleep(0.05)
+    return training
 
 
 def serve_here(url: str, is_over: threading.Event) -> threading.Thread:
@@ -170,8 +177,8 @@ def test_one_game_in_lockstep_learns_what_train_learns_by_itself(
     assert run(*words, "--out", alone) == 0
     game = served.begin("one")
     assert run(*words, "--games", url, "--out", together) == 0
-    for table in ("episodes.csv", "evaluations.csv"):
-        assert (together / table).read_bytes() == (alone / table).read_bytes()
+    for name in ("episodes.csv", "evaluations.csv"):
+        assert (together / name).read_bytes() == (alone / name).read_bytes()
     with (
         np.load(alone / "checkpoint" / FILE) as ours,
         np.load(together / "checkpoint" / FILE) as its,
@@ -189,15 +196,12 @@ def test_two_games_of_which_one_is_killed_reach_the_optimum(
     games = [served.begin(name) for name in ("one", "two")]
     out = tmp_path / "out"
     words = [*TRAIN, "--scenario", str(design), "--games", url, "--out", str(out)]
-    training = subprocess.Popen([sys.executable, "-m", "mc_nested.cli", *words], stderr=subprocess.PIPE, text=True)
-    while training.poll() is None and "episode" not in served.said("one"):
-        time.sleep(0.05)
+    training = begun_beside(served, words)
     games[0].kill()
     _, said = training.communicate(timeout=120)
     assert training.returncode == 0, said
     assert "one is gone" in said
-    with (out / "episodes.csv").open(newline="", encoding="utf-8") as file:
-        episodes = [int(row["episode"]) for row in csv.DictReader(file)]
+    episodes = [int(row["episode"]) for row in table(out / "episodes.csv")]
     assert episodes == list(range(1, len(episodes) + 1))
 
 
@@ -254,9 +258,7 @@ def test_two_games_of_one_name_are_refused_at_both_ends(url: str, served: Served
     served.begin("one")
     words = [*TRAIN, "--scenario", str(design), "--games", url, "--out", str(tmp_path / "out"), "--episodes", "1000"]
     words.remove("--stop-at-optimum")
-    training = subprocess.Popen([sys.executable, "-m", "mc_nested.cli", *words], stderr=subprocess.PIPE, text=True)
-    while training.poll() is None and "episode" not in served.said("one"):
-        time.sleep(0.05)
+    training = begun_beside(served, words)
     log = tmp_path / "second.log"
     program = [sys.executable, "-m", "mc_nested.cli", "train", "serve", "--scheduler", url, "--name", "one"]
     with log.open("wb") as file:
@@ -329,9 +331,7 @@ def test_a_scheduler_that_is_killed_saves_the_training(design: Path, tmp_path: P
         served.begin("one")
         words = [*TRAIN, "--scenario", str(design), "--games", address, "--out", str(tmp_path / "out")]
         words.remove("--stop-at-optimum")
-        training = subprocess.Popen([sys.executable, "-m", "mc_nested.cli", *words], stderr=subprocess.PIPE, text=True)
-        while training.poll() is None and "episode 2" not in served.said("one"):
-            time.sleep(0.05)
+        training = begun_beside(served, words, until="episode 2")
         killed.close()
         _, said = training.communicate(timeout=60)
     assert training.returncode == 2

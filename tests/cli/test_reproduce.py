@@ -19,8 +19,9 @@ from mc_nested.cli.reproduce import reproduce
 from mc_nested.learn.runs.checkpoint import FILE
 from mc_nested.learn.runs.folder_lock import folder_lock
 from mc_nested.studies.reproduce import STUDY
-from tests.cli.running import run, table
-from tests.learn.made_experiments import BAR, DOT, scenario_text, small_preset_text
+from tests.cli.running import run, table, write_study
+from tests.full_disk import full_disk
+from tests.learn.made_experiments import BAR, DOT, small_preset_text
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="Windows has no signals for other processes")
 
@@ -31,16 +32,13 @@ WRITTEN = ("results.csv", "figure5.png", "figure5.svg", "report.md")
 @pytest.fixture(scope="module")
 def files(tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder = tmp_path_factory.mktemp("files")
-    for scenario in (DOT, BAR):
-        (folder / f"{scenario.name}.toml").write_text(scenario_text(scenario), "utf-8")
-    (folder / "small.toml").write_text(small_preset_text(), "utf-8")
+    write_study(folder, DOT, BAR)
     return folder
 
 
 @pytest.fixture(scope="module")
 def words(files: Path) -> list[str]:
-    scenarios = ["--scenario", str(files / "dot.toml"), "--scenario", str(files / "bar.toml")]
-    return ["reproduce", *scenarios, "--preset", str(files / "small.toml"), "--trials", "2", "--seed", "5"]
+    return ["reproduce", *write_study(files, DOT, BAR), "--seed", "5"]
 
 
 @pytest.fixture(scope="module")
@@ -92,16 +90,9 @@ def test_a_reproduction_leaves_its_results_and_what_made_them(done: Path) -> Non
 
 
 def test_train_gives_the_same_runs(done: Path, files: Path, tmp_path: Path) -> None:
-    train: list[str | Path] = [
-        "train",
-        "--agent",
-        "hierarchical",
-        "--scenario",
-        files / "bar.toml",
-        "--preset",
-        files / "small.toml",
-    ]
-    assert run(*train, "--trials", "2", "--seed", "5", "--out", tmp_path / "run") == 0
+    assert (
+        run("train", "--agent", "hierarchical", *write_study(files, BAR), "--seed", "5", "--out", tmp_path / "run") == 0
+    )
     alone = (tmp_path / "run" / "evaluations.csv").read_text().splitlines()[1:]
     rows = [row for row in table(done / "results.csv") if (row["agent"], row["scenario"]) == ("hierarchical", "bar")]
     assert sorted((int(row["trial"]), int(row["episode"]), float(row["score"])) for row in rows) == sorted(
@@ -270,11 +261,8 @@ def test_if_the_command_is_killed_its_processes_save_and_end(words: list[str], t
 def test_a_disk_that_fills_up_at_the_end_costs_one_line_and_no_file(
     done: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    def full(*_: object, **__: object) -> None:
-        raise OSError(28, "No space left on device")
-
     before = written(done)
-    monkeypatch.setattr("matplotlib.figure.Figure.savefig", full)
+    monkeypatch.setattr("matplotlib.figure.Figure.savefig", full_disk)
     assert run("reproduce", "--resume", done) == 2
     said = capsys.readouterr().err
     assert "No space left on device" in said

@@ -1,6 +1,5 @@
 """``mc-nested study ablation``: its folder, its files, and what it refuses."""
 
-import csv
 import json
 from pathlib import Path
 
@@ -11,7 +10,7 @@ from mc_nested.studies.ablation import arms
 from mc_nested.studies.config import StudyConfig, config_of
 from mc_nested.studies.folder import StudyFolder
 from mc_nested.studies.study import StudyOptions
-from tests.cli.running import run
+from tests.cli.running import run, table
 from tests.learn.made_experiments import BAR, DOT, scenario_text
 
 
@@ -41,8 +40,7 @@ def test_a_stopped_ablation_is_resumed_and_leaves_its_files(tmp_path: Path, caps
     names = "tuned as it is", "tuned, γ 0"
     StudyFolder.new(out, config(*names)).begin()
     assert run("study", "ablation", "--resume", out) == 0
-    with (out / "ablation.csv").open(newline="", encoding="utf-8") as file:
-        rows = list(csv.DictReader(file))
+    rows = table(out / "ablation.csv")
     assert [(row["part"], row["scenario"], row["trial"]) for row in rows] == [
         (part, scenario, trial) for part in names for scenario in ("dot", "bar") for trial in "01"
     ]
@@ -62,7 +60,6 @@ def test_an_ablation_has_a_row_for_each_trial_of_each_part(tmp_path: Path) -> No
     words: list[str | Path] = ["study", "ablation", "--scenario", tmp_path / "dot.toml", "--trials", "2"]
     out = tmp_path / "out"
     assert run(*words, "--episodes", "3", "--out", out) == 0
-    with (out / "ablation.csv").open(newline="", encoding="utf-8") as file:
-        rows = list(csv.DictReader(file))
+    rows = table(out / "ablation.csv")
     expected = arms(StudyOptions(trials=2, scenarios=[DOT]))
     assert [(row["part"], row["trial"]) for row in rows] == [(arm.name, trial) for arm in expected for trial in "01"]

@@ -1,6 +1,5 @@
 """``mc-nested reproduce --beyond``: its folder, its files, going on, and what it refuses."""
 
-import csv
 import json
 from dataclasses import replace
 from pathlib import Path
@@ -14,7 +13,7 @@ from mc_nested.studies.config import config_of
 from mc_nested.studies.folder import StudyFolder
 from mc_nested.studies.run_facts import facts_of
 from mc_nested.studies.study import StudyOptions
-from tests.cli.running import run
+from tests.cli.running import run, table
 from tests.learn.made_experiments import small_preset
 
 FILES = STUDY.files
@@ -36,8 +35,7 @@ def done(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 def test_a_stopped_study_is_resumed_and_leaves_its_files(done: Path) -> None:
     assert {*FILES.values()} <= {path.name for path in done.iterdir()}
-    with (done / "beyond.csv").open(newline="", encoding="utf-8") as file:
-        rows = list(csv.DictReader(file))
+    rows = table(done / "beyond.csv")
     found = {(row["topic"], row["scenario"], row["agent"]) for row in rows}
     assert found == {
         (arm.labels["topic"], scenario.name, arm.labels["agent"]) for arm in small_arms() for scenario in arm.scenarios

@@ -1,6 +1,5 @@
 """``mc-nested reproduce --robustness``: its folder, its files, going on, and what it refuses."""
 
-import csv
 import json
 from pathlib import Path
 
@@ -13,8 +12,8 @@ from mc_nested.studies.config import StudyConfig, config_of
 from mc_nested.studies.folder import StudyFolder
 from mc_nested.studies.robustness import STUDY, open_choices
 from mc_nested.studies.study import StudyOptions
-from tests.cli.running import run
-from tests.learn.made_experiments import BAR, DOT, scenario_text, small_preset, small_preset_text
+from tests.cli.running import run, table, write_study
+from tests.learn.made_experiments import BAR, DOT, small_preset
 
 FILES = STUDY.files
 GAMMA = Change(choice="γ", value="0.5", preset={"update": {"gamma": 0.5}})
@@ -42,8 +41,7 @@ def done(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 def test_a_stopped_study_is_resumed_and_leaves_its_files(done: Path) -> None:
     assert {*FILES.values()} <= {path.name for path in done.iterdir()}
-    with (done / "robustness.csv").open(newline="", encoding="utf-8") as file:
-        rows = list(csv.DictReader(file))
+    rows = table(done / "robustness.csv")
     assert list(dict.fromkeys((row["choice"], row["value"]) for row in rows)) == [
         ("", ""),
         ("γ", "0.5"),
@@ -86,19 +84,8 @@ def test_an_impossible_option_is_one_line(words: list[str], says: str, capsys: p
 
 @pytest.mark.slow
 def test_the_command_trains_every_choice_for_every_agent(tmp_path: Path) -> None:
-    (tmp_path / "dot.toml").write_text(scenario_text(DOT), "utf-8")
-    (tmp_path / "small.toml").write_text(small_preset_text(), "utf-8")
-    words: list[str | Path] = [
-        "--scenario",
-        tmp_path / "dot.toml",
-        "--preset",
-        tmp_path / "small.toml",
-        "--trials",
-        "2",
-    ]
     out = tmp_path / "out"
-    assert run("reproduce", "--robustness", *words, "--episodes", "10", "--out", out) == 0
+    assert run("reproduce", "--robustness", *write_study(tmp_path, DOT), "--episodes", "10", "--out", out) == 0
     expected = open_choices(small_preset(10), [DOT])
-    with (out / "robustness.csv").open(newline="", encoding="utf-8") as file:
-        found = {(row["choice"], row["value"]) for row in csv.DictReader(file)}
+    found = {(row["choice"], row["value"]) for row in table(out / "robustness.csv")}
     assert found == {(choice.choice, choice.value) for choice in expected}

@@ -23,6 +23,7 @@ from sim.grid import GridVectorEnv
 from tests.cli.fragile_game import open_live
 from tests.cli.made_imagination import SMALL, write_preset, write_scenario
 from tests.cli.running import TRAIN, check_mistake, run, table
+from tests.full_disk import full_disk
 
 
 def test_a_training_leaves_everything_behind(trained: Path) -> None:
@@ -167,9 +168,6 @@ def test_networks_that_do_not_fit_are_one_line(
 def test_a_training_begun_from_another_that_can_not_be_saved_is_not_begun(
     optimal: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    def full_disk(_: int) -> None:
-        raise OSError(28, "No space left on device")
-
     words = ("train", "--preset", "model-based", "--episodes", "6", "--from", optimal, "--out", tmp_path / "new")
     with monkeypatch.context() as patch:
         patch.setattr("os.fsync", full_disk)
@@ -302,11 +300,7 @@ def test_a_disk_that_fills_up_costs_one_line_and_not_the_last_checkpoint(
 ) -> None:
     out = tmp_path / "run"
     shutil.copytree(trained, out)
-
-    def full(*_: object, **__: object) -> None:
-        raise OSError(28, "No space left on device")
-
-    monkeypatch.setattr("mc_nested.cli.training_end.draw_curve", full)
+    monkeypatch.setattr("mc_nested.cli.training_end.draw_curve", full_disk)
     assert run("train", "--resume", out) == 2
     said = capsys.readouterr().err
     assert "No space left on device" in said
