@@ -9,6 +9,6 @@ from tests.learn.made_experiments import DOT
 ORDER = GameOrder("virtual", DOT, "nested", load_preset("model-based"), seed=3)
 
 
-def new_trainer(order: GameOrder = ORDER, *, stop_at_optimum: bool = True) -> GamesTrainer:
-    agent = Agent(AGENT_SPECS[order.agent], [order.scenario], order.preset, order.seed)
-    return GamesTrainer(order.scenario, agent, order.preset, order.seed, stop_at_optimum)
+def new_trainer() -> GamesTrainer:
+    agent = Agent(AGENT_SPECS[ORDER.agent], [DOT], ORDER.preset, ORDER.seed)
+    return GamesTrainer(DOT, agent, ORDER.preset, ORDER.seed, stop_at_optimum=True)

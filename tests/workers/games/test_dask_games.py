@@ -89,6 +89,13 @@ def next_request(desk: Desk) -> Request:
     return request
 
 
+def first_request(games: DaskGames, desk: Desk) -> Request:
+    """Return what the game asks for that joins and is asked whether it is ready."""
+    assert until(games, 1) == [Joined("one")]
+    games.ask("one", None)
+    return next_request(desk)
+
+
 def listening() -> set[tuple[str, int]]:
     """Return the addresses and ports on which this process listens."""
     psutil = pytest.importorskip("psutil")
@@ -134,9 +141,7 @@ def test_a_game_whose_network_is_gone_joins_again_and_breaks_off_what_it_played(
     proxy = Proxy(address.url)
     said: list[str] = []
     with DaskGames(client, ORDER) as games, GameWorker(SchedulerAddress(proxy.address, None), "one", said.append):
-        assert until(games, 1) == [Joined("one")]
-        games.ask("one", None)
-        request = next_request(desk)
+        request = first_request(games, desk)
         proxy.cut()
         assert until(games, 1) == [Left("one")]
         until_so(lambda: not request.is_wanted())
@@ -152,10 +157,7 @@ def test_an_answer_of_a_game_that_has_left_since_counts_and_is_told_first(
 ) -> None:
     with DaskGames(client, ORDER) as games:
         with GameWorker(address, "one", quiet):
-            assert until(games, 1) == [Joined("one")]
-            games.ask("one", None)
-            request = next_request(desk)
-            request.answer.set_result(GameAnswer())
+            first_request(games, desk).answer.set_result(GameAnswer())
         assert games.events(PATIENCE_S) == [Answered("one", GameAnswer())]
         games.ask("one", None)
         assert games.events(1.0) == [Left("one")]
@@ -171,9 +173,7 @@ def test_a_learner_whose_network_was_gone_asks_its_games_anew(
         stack.enter_context(GameWorker(address, "one", quiet))
         client = stack.enter_context(connected(SchedulerAddress(proxy.address, None)))
         games = stack.enter_context(DaskGames(client, ORDER))
-        assert until(games, 1) == [Joined("one")]
-        games.ask("one", None)
-        request = next_request(desk)
+        request = first_request(games, desk)
         before = client.scheduler_comm
         proxy.cut()
         if not looks:  # and in the meantime Dask has connected it again
@@ -196,9 +196,7 @@ def test_an_episode_that_came_back_before_the_scheduler_was_lost_counts(
         client = stack.enter_context(connected(address))
         stack.enter_context(GameWorker(address, "one", quiet))
         games = stack.enter_context(DaskGames(client, ORDER))
-        assert until(games, 1) == [Joined("one")]
-        games.ask("one", None)
-        next_request(desk).answer.set_result(GameAnswer())
+        first_request(games, desk).answer.set_result(GameAnswer())
         until_so(games._asked["one"].done)
         killed.close()
         until_so(lambda: bool(client.status == "closed"))
@@ -215,9 +213,7 @@ def test_an_answer_that_cannot_be_fetched_is_told_once(
     monkeypatch.setattr(distributed, "Worker", partial(distributed.Worker, contact_address=nobody))
     with DaskGames(client, ORDER) as games:
         with GameWorker(address, "one", quiet):
-            assert until(games, 1) == [Joined("one")]
-            games.ask("one", None)
-            next_request(desk).answer.set_result(GameAnswer())
+            first_request(games, desk).answer.set_result(GameAnswer())
             assert until(games, 1) == [Unreachable("one", nobody)]
             assert games.events(0.5) == []
         assert until(games, 1) == [Left("one")]
@@ -227,9 +223,7 @@ def test_an_answer_that_cannot_be_fetched_is_told_once(
 def test_a_learner_that_is_done_wants_no_answer_any_more(address: SchedulerAddress, client: Client, desk: Desk) -> None:
     with GameWorker(address, "one", quiet):
         with DaskGames(client, ORDER) as games:
-            assert until(games, 1) == [Joined("one")]
-            games.ask("one", None)
-            request = next_request(desk)
+            request = first_request(games, desk)
         until_so(lambda: not request.is_wanted())
         request.answer.set_result(GameAnswer())
 
