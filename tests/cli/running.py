@@ -37,16 +37,20 @@ def write_study(folder: Path, *scenarios: Scenario) -> list[str]:
     return [*words, "--preset", str(folder / "small.toml"), "--trials", "2"]
 
 
+def files_in(folder: Path) -> dict[Path, bytes]:
+    return {path: path.read_bytes() for path in folder.rglob("*") if path.is_file()}
+
+
 def check_mistake(
-    arguments: list[str], says: str, trained: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+    arguments: list[str], says: str, done: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     """Check that these words are refused in one line, and nothing is written.
 
-    In them, NEW stands for a path in ``tmp_path``, where nothing is yet, and TRAINED for a run's folder.
+    In them, NEW stands for a path in ``tmp_path``, where nothing is yet, and DONE for a run's folder.
     """
     new = tmp_path / "new"
-    words = [word.replace("TRAINED", str(trained)).replace("NEW", str(new)) for word in arguments]
-    before = (trained / "config.toml").read_bytes()
+    words = [word.replace("DONE", str(done)).replace("NEW", str(new)) for word in arguments]
+    before = files_in(done)
     assert run(*words) == 2
     printed = capsys.readouterr()
     assert printed.out == ""
@@ -54,7 +58,7 @@ def check_mistake(
     assert printed.err.count("\n") == 1
     assert says.replace("NEW", str(new)) in printed.err
     assert list(tmp_path.iterdir()) == []
-    assert (trained / "config.toml").read_bytes() == before
+    assert files_in(done) == before
 
 
 def verbs_of(command: Any, name: str = "") -> Iterator[tuple[str, Any]]:

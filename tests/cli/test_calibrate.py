@@ -224,13 +224,6 @@ def test_undo_puts_the_earlier_profile_back_and_a_second_time_the_later_one(
         assert capsys.readouterr().out == f"{file} is as it was before\n"
 
 
-def test_undo_without_an_earlier_profile_is_one_line(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    assert run("calibrate", "undo", "--profile", tmp_path / "new.toml") == 2
-    error = capsys.readouterr().err
-    assert "there is no earlier profile" in error
-    assert error.count("\n") == 1
-
-
 def test_undo_says_where_a_file_that_can_not_be_read_is_kept(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -3,7 +3,6 @@
 import json
 import os
 import signal
-import socket
 import subprocess
 import sys
 import threading
@@ -21,7 +20,6 @@ from mc_nested.cli import games_at_play, serve
 from mc_nested.learn.games.games_trainer import GamesTrainer
 from mc_nested.learn.preset import load_preset
 from mc_nested.learn.runs.checkpoint import FILE
-from mc_nested.workers.cluster import connection
 from mc_nested.workers.cluster.address import SchedulerAddress
 from mc_nested.workers.cluster.connection import connected
 from mc_nested.workers.cluster.keys import make_keys
@@ -33,7 +31,7 @@ from mc_nested.workers.games.game_server import GameServer, OpenGame
 from mc_nested.workers.games.game_worker import GameWorker
 from mc_nested.workers.games.order import GameAnswer, GameOrder
 from sim.virtual_games import VirtualPlay, open_virtual_games
-from tests.cli.running import run, table
+from tests.cli.running import check_mistake, run, table
 from tests.dask_fixture import LEFTOVERS, leftovers
 from tests.learn.made_experiments import DOT, scenario_text
 from tests.workers.cluster.dask_programs import scheduler, tls_words
@@ -220,18 +218,18 @@ def test_a_game_of_another_kind_refuses_at_both_ends(
 @pytest.mark.parametrize(
     ("words", "says"),
     [
-        (["train", "--games", "127.0.0.1:PORT", "--out", "OUT"], "--games are live, or on the virtual client"),
+        (["train", "--games", "127.0.0.1:PORT", "--out", "NEW"], "--games are live, or on the virtual client"),
         (
-            [*TRAIN, "--games", "127.0.0.1:PORT", "--out", "OUT"],
+            [*TRAIN, "--games", "127.0.0.1:PORT", "--out", "NEW"],
             "no scheduler answered at tcp://127.0.0.1:PORT: start one there",
         ),
-        ([*TRAIN, "--games", "10.0.0.1", "--out", "OUT"], "needs this machine's keys"),
-        ([*TRAIN, "--games", "tcp://10.0.0.1", "--out", "OUT"], "is not encrypted"),
-        ([*TRAIN, "--games", "127.0.0.1", "--profile", "x", "--out", "OUT"], "leave out --profile"),
-        ([*TRAIN, "--games", "127.0.0.1", "--record", "all", "--out", "OUT"], "leave out --record"),
-        ([*TRAIN, "--games", "127.0.0.1", "--trials", "2", "--out", "OUT"], "games teach one trial together"),
-        ([*TRAIN, "--insecure", "--out", "OUT"], "name their scheduler with --games"),
-        ([*TRAIN, "--preset", "tuned", "--games", "127.0.0.1", "--out", "OUT"], "[excursions] need the learner"),
+        ([*TRAIN, "--games", "10.0.0.1", "--out", "NEW"], "needs this machine's keys"),
+        ([*TRAIN, "--games", "tcp://10.0.0.1", "--out", "NEW"], "is not encrypted"),
+        ([*TRAIN, "--games", "127.0.0.1", "--profile", "x", "--out", "NEW"], "leave out --profile"),
+        ([*TRAIN, "--games", "127.0.0.1", "--record", "all", "--out", "NEW"], "leave out --record"),
+        ([*TRAIN, "--games", "127.0.0.1", "--trials", "2", "--out", "NEW"], "games teach one trial together"),
+        ([*TRAIN, "--insecure", "--out", "NEW"], "name their scheduler with --games"),
+        ([*TRAIN, "--preset", "tuned", "--games", "127.0.0.1", "--out", "NEW"], "[excursions] need the learner"),
         (["train", "serve", "--scheduler", "127.0.0.1:PORT", "--backend", "virtual"], "no scheduler answered at"),
         (["train", "serve", "--scheduler", "10.0.0.1", "--backend", "virtual"], "needs this machine's keys"),
         (["train", "serve", "--scheduler", "127.0.0.1:PORT", "--profile", "nobody"], "nobody"),
@@ -239,18 +237,15 @@ def test_a_game_of_another_kind_refuses_at_both_ends(
     ],
 )
 def test_a_mistake_is_one_line_and_writes_nothing(
-    words: list[str], says: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+    words: list[str],
+    says: str,
+    nobodys_port: str,
+    trained: Path,
+    tmp_path: Path,
+    capsys: pytest.CaptureFixture[str],
 ) -> None:
-    monkeypatch.setattr(connection, "CONNECT_S", 0.5)
-    with socket.socket() as free:
-        free.bind(("127.0.0.1", 0))
-        port = str(free.getsockname()[1])
-    out = tmp_path / "out"
-    assert run(*(word.replace("PORT", port).replace("OUT", str(out)) for word in words)) == 2
-    said = capsys.readouterr().err
-    assert says.replace("PORT", port) in said
-    assert said.count("\n") == 1
-    assert not out.exists()
+    words = [word.replace("PORT", nobodys_port) for word in words]
+    check_mistake(words, says.replace("PORT", nobodys_port), trained, tmp_path, capsys)
 
 
 @pytest.mark.slow

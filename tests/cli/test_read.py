@@ -13,7 +13,7 @@ from sim.client.drawing.f3_layers import paint
 from sim.client.drawing.letters import drawn_atlas
 from sim.client.game.f3_screen import F3Screen
 from tests.calibration.contexts import font_file_in
-from tests.cli.running import check_mistake, run
+from tests.cli.running import run
 
 STONE = F3Screen("1.16-1.19.2", 2, (8.5, 64.0, -3.25), 0.0, 65.0, Target((8, 63, -2), "minecraft:stone"))
 SKY = F3Screen("1.16-1.19.2", 2, (8.5, 64.0, -3.25), 0.0, -65.0)
@@ -104,17 +104,3 @@ def test_a_font_that_is_named_goes_before_the_profiles(
     profile.write_text("[screen]\nfont = '/nowhere/ascii.png'\n", "utf-8")
     (line,) = printed(capsys, picture(tmp_path / "a.png", STONE), "--profile", profile, "--font", font)
     assert "at 8.500" in line
-
-
-@pytest.mark.parametrize(
-    ("arguments", "says"),
-    [
-        (["read", "NEW.png"], "name the game's font"),
-        (["read", "NEW.png", "--font", "NEW.jar"], "NEW.jar"),
-        (["read", "NEW.png", "--font", "TRAINED/config.toml"], "config.toml"),
-    ],
-)
-def test_a_mistake_is_one_line_and_exit_code_2(
-    arguments: list[str], says: str, trained: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    check_mistake(arguments, says, trained, tmp_path, capsys)

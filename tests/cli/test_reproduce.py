@@ -19,7 +19,7 @@ from mc_nested.cli.reproduce import reproduce
 from mc_nested.learn.runs.checkpoint import FILE
 from mc_nested.learn.runs.folder_lock import folder_lock
 from mc_nested.studies.reproduce import STUDY
-from tests.cli.running import run, table, write_study
+from tests.cli.running import check_mistake, run, table, write_study
 from tests.full_disk import full_disk
 from tests.learn.made_experiments import BAR, DOT, small_preset_text
 
@@ -52,14 +52,6 @@ def written(folder: Path) -> dict[str, bytes]:
     """Return the files that it ends with, the report without its lines that name seconds."""
     found = {name: (folder / name).read_bytes() for name in WRITTEN}
     return {**found, "report.md": re.sub(rb"(?m)^.*[Ss]econds.*$", b"", found["report.md"])}
-
-
-def test_a_preset_that_an_agent_can_not_use_is_refused_before_anything_is_trained(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    assert run("reproduce", "--preset", "tuned", "--out", tmp_path / "run") == 2
-    assert "is not for the single agent" in capsys.readouterr().err
-    assert not (tmp_path / "run").exists()
 
 
 @pytest.mark.parametrize(
@@ -300,14 +292,6 @@ def test_a_disk_that_fills_up_at_the_end_costs_one_line_and_no_file(
 def test_a_mistake_is_one_line_and_exit_code_2(
     arguments: list[str], says: str, done: Path, files: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    (files / "odd.toml").write_text(small_preset_text() + "\nlearning_rte = 1\n", "utf-8")
-    names = {"DONE": done, "NEW": tmp_path / "new", "ODD": files / "odd.toml"}
-    before = {path: path.read_bytes() for path in done.rglob("*") if path.is_file()}
-    assert run(*(str(names.get(word, word)) for word in arguments)) == 2
-    printed = capsys.readouterr()
-    assert printed.out == ""
-    assert printed.err.startswith("mc-nested: ")
-    assert printed.err.count("\n") == 1
-    assert says in printed.err
-    assert list(tmp_path.iterdir()) == []
-    assert {path: path.read_bytes() for path in done.rglob("*") if path.is_file()} == before
+    odd = files / "odd.toml"
+    odd.write_text(small_preset_text() + "\nlearning_rte = 1\n", "utf-8")
+    check_mistake([word.replace("ODD", str(odd)) for word in arguments], says, done, tmp_path, capsys)

@@ -20,21 +20,6 @@ def config(*names: str) -> StudyConfig:
     return config_of("ablation", [arm for arm in shipped if arm.name in names], trials=2, seed=0, jobs=1)
 
 
-@pytest.mark.parametrize(
-    ("words", "says"),
-    [
-        (["--resume", "old", "--trials", "3"], "leave out --trials"),
-        (["--out", "new", "--scenario", "flag"], "[imagination] knows no parts, and flag has some"),
-        (["--out", "new", "--scenario", "line", "--scenario", "line"], "two scenarios are named 'line'"),
-    ],
-)
-def test_an_impossible_option_is_one_line(words: list[str], says: str, capsys: pytest.CaptureFixture[str]) -> None:
-    assert run("study", "ablation", *words) == 2
-    error = capsys.readouterr().err.strip()
-    assert says in error
-    assert "\n" not in error
-
-
 def test_a_stopped_ablation_is_resumed_and_leaves_its_files(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     out = tmp_path / "out"
     names = "tuned as it is", "tuned, γ 0"

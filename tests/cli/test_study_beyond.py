@@ -87,15 +87,6 @@ def test_options_that_the_study_sets_itself_are_refused(
     assert not out.exists()
 
 
-def test_a_device_that_is_not_there_is_refused_before_anything_is_written(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    out = tmp_path / "new"
-    assert run("reproduce", "--beyond", "--device", "mps", "--out", out) == 2
-    assert capsys.readouterr().err.count("\n") == 1
-    assert not out.exists()
-
-
 def test_a_folder_without_a_study_is_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert run("reproduce", "--resume", tmp_path) == 2
     assert "no config.toml there" in capsys.readouterr().err

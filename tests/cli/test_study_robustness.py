@@ -65,23 +65,6 @@ def test_resuming_a_finished_study_writes_the_same_files(done: Path, capsys: pyt
     assert f"{done}: process " in capsys.readouterr().err
 
 
-@pytest.mark.parametrize(
-    ("words", "says"),
-    [
-        (["--agent", "nested"], "--robustness takes fewer options than reproduce: leave out --agent"),
-        (["--longer", "10"], "--robustness takes fewer options than reproduce: leave out --longer"),
-        (["--preset", "tuned"], "is not for the single agent"),
-        (["--scenario", "line", "--scenario", "line"], "two scenarios are named 'line'"),
-        (["--resume", "OLD"], "leave out --robustness"),
-    ],
-)
-def test_an_impossible_option_is_one_line(words: list[str], says: str, capsys: pytest.CaptureFixture[str]) -> None:
-    assert run("reproduce", "--robustness", *words) == 2
-    error = capsys.readouterr().err.strip()
-    assert says in error
-    assert "\n" not in error
-
-
 @pytest.mark.slow
 def test_the_command_trains_every_choice_for_every_agent(tmp_path: Path) -> None:
     out = tmp_path / "out"
