@@ -209,12 +209,6 @@ def test_what_can_not_be_kept_for_the_report_does_not_end_it(client: VirtualClie
     assert load_profile(profile).keys.left == "d"
 
 
-@pytest.mark.parametrize("standing", [(99, 99), (-1, 0), (15, 0)])
-def test_a_cell_outside_the_arena_is_refused_before_anything(standing: tuple[int, int]) -> None:
-    with pytest.raises(UserError, match="outside the arena"):
-        registered_steps(standing=standing)
-
-
 @pytest.mark.parametrize("last", [broken, stopped])
 def test_ended_after_the_arena_was_built_it_says_how_to_undo_that_and_can(last: StepFunction, tmp_path: Path) -> None:
     client = VirtualClient()

@@ -1,6 +1,7 @@
 """Runs the command in this process, and checks a mistake in its words."""
 
 import csv
+import os
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -9,6 +10,7 @@ import pytest
 
 from mc_nested.arena.scenario import Scenario
 from mc_nested.cli.app import main
+from mc_nested.learn.runs.folder_lock import folder_lock
 from tests.learn.made_experiments import scenario_text, small_preset_text
 
 TRAIN = ["train", "--episodes", "40", "--trials", "2", "--seed", "3"]
@@ -59,6 +61,14 @@ def check_mistake(
     assert says.replace("NEW", str(new)) in printed.err
     assert list(tmp_path.iterdir()) == []
     assert files_in(done) == before
+
+
+def check_one_at_a_time(verb: list[str], folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """Check that the verb goes on with no folder that another process is writing."""
+    with folder_lock(folder):
+        assert run(*verb, "--resume", folder) == 2
+    says = f"mc-nested: {folder}: process {os.getpid()} is writing there: wait until it ends, or stop it\n"
+    assert capsys.readouterr().err == says
 
 
 def verbs_of(command: Any, name: str = "") -> Iterator[tuple[str, Any]]:

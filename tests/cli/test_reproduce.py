@@ -17,9 +17,8 @@ from mc_nested.cli import study as study_module
 from mc_nested.cli.output import json_fields
 from mc_nested.cli.reproduce import reproduce
 from mc_nested.learn.runs.checkpoint import FILE
-from mc_nested.learn.runs.folder_lock import folder_lock
 from mc_nested.studies.reproduce import STUDY
-from tests.cli.running import check_mistake, run, table, write_study
+from tests.cli.running import check_mistake, check_one_at_a_time, run, table, write_study
 from tests.full_disk import full_disk
 from tests.learn.made_experiments import BAR, DOT, small_preset_text
 
@@ -107,10 +106,7 @@ def test_resuming_a_finished_reproduction_writes_the_same_files_again(
 
 
 def test_a_reproduction_is_resumed_by_one_process_at_a_time(done: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    with folder_lock(done):
-        assert run("reproduce", "--resume", done) == 2
-    says = f"mc-nested: {done}: process {os.getpid()} is writing there: wait until it ends, or stop it\n"
-    assert capsys.readouterr().err == says
+    check_one_at_a_time(["reproduce"], done, capsys)
 
 
 def test_json_has_the_files_and_the_verdicts(done: Path, capsys: pytest.CaptureFixture[str]) -> None:

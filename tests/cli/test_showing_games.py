@@ -28,7 +28,8 @@ class OneArena:
 def test_its_progress_its_view_and_its_events_are_those_of_one_trial(tmp_path: Path) -> None:
     learner = learner_of(BENT, SMALL)
     config = run_config(BENT, preset=SMALL)
-    board, console = Board("train", "a title"), Console(file=io.StringIO(), width=120)
+    board, said = Board("train", "a title"), io.StringIO()
+    console = Console(file=said, width=120)
     view, events = TrainingView(board, learner, BENT, OneArena(), config), TensorBoard([tmp_path], learner)
     with TrainingProgress(BENT, learner, console) as progress:
         finish(learner, game_of(BENT, SMALL))
@@ -39,10 +40,5 @@ def test_its_progress_its_view_and_its_events_are_those_of_one_trial(tmp_path: P
     assert learning is not None
     assert (learning.episodes, learning.best, learning.at_optimum) == (SMALL.episodes, BENT.optimum, 1)
     assert "3 of 3 cells known" in learning.exploring
-    assert f"episodes {SMALL.episodes} of at most {SMALL.episodes}" in said(console)
+    assert f"episodes {SMALL.episodes} of at most {SMALL.episodes}" in said.getvalue()
     assert (tmp_path / FILE).stat().st_size > 0
-
-
-def said(console: Console) -> str:
-    assert isinstance(console.file, io.StringIO)
-    return console.file.getvalue()

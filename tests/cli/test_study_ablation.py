@@ -5,12 +5,11 @@ from pathlib import Path
 
 import pytest
 
-from mc_nested.learn.runs.folder_lock import folder_lock
 from mc_nested.studies.ablation import arms
 from mc_nested.studies.config import StudyConfig, config_of
 from mc_nested.studies.folder import StudyFolder
 from mc_nested.studies.study import StudyOptions
-from tests.cli.running import run, table
+from tests.cli.running import check_one_at_a_time, run, table
 from tests.learn.made_experiments import BAR, DOT, scenario_text
 
 
@@ -34,9 +33,7 @@ def test_a_stopped_ablation_is_resumed_and_leaves_its_files(tmp_path: Path, caps
     assert run("study", "ablation", "--resume", out, "--json") == 0
     assert json.loads(capsys.readouterr().out)["files"]["table"] == str(out / "ablation.md")
     assert {name: (out / name).read_bytes() for name in written} == written
-    with folder_lock(out):
-        assert run("study", "ablation", "--resume", out) == 2
-    assert f"{out}: process " in capsys.readouterr().err
+    check_one_at_a_time(["study", "ablation"], out, capsys)
 
 
 @pytest.mark.slow

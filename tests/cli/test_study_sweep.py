@@ -7,8 +7,7 @@ import pytest
 
 from mc_nested.cli.output import json_fields
 from mc_nested.cli.study import command_of, declared
-from mc_nested.learn.runs.folder_lock import folder_lock
-from tests.cli.running import run, table, write_study
+from tests.cli.running import check_one_at_a_time, run, table, write_study
 from tests.learn.made_experiments import DOT
 
 
@@ -31,9 +30,7 @@ def test_a_sweep_leaves_a_row_for_each_trial_a_table_and_a_plot(
     files = {"table": str(out / "sweep.md"), "plot": str(out / "sweep.png"), "rows": str(out / "sweep.csv")}
     assert set(json_fields(command_of(declared("sweep")))) == {"folder", "files"}
     assert json.loads(capsys.readouterr().out) == {"folder": str(out), "files": files}
-    with folder_lock(out):
-        assert run("study", "sweep", "--resume", out) == 2
-    assert f"{out}: process " in capsys.readouterr().err
+    check_one_at_a_time(["study", "sweep"], out, capsys)
     rows = table(out / "sweep.csv")
     base = [row for row in rows if (row["agent"], row["choice"]) == ("nested", "")]
     assert [(row["scenario"], row["trial"]) for row in base] == [("dot", "0"), ("dot", "1")]

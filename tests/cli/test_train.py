@@ -16,13 +16,12 @@ import pytest
 
 from mc_nested.errors import DesktopError, LiveError, McNestedError
 from mc_nested.learn.runs.checkpoint import FILE
-from mc_nested.learn.runs.folder_lock import folder_lock
 from mc_nested.learn.runs.run_folder import RunFolder
 from mc_nested.learn.trainer import Trainer
 from sim.grid import GridVectorEnv
 from tests.cli.fragile_game import open_live
 from tests.cli.made_imagination import SMALL, write_preset, write_scenario
-from tests.cli.running import TRAIN, run, table
+from tests.cli.running import TRAIN, check_one_at_a_time, run, table
 from tests.full_disk import full_disk
 
 
@@ -229,10 +228,7 @@ def test_a_run_is_resumed_by_one_process_at_a_time(
     trained: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     shutil.copytree(trained, tmp_path / "run")
-    with folder_lock(tmp_path / "run"):
-        assert run("train", "--resume", tmp_path / "run") == 2
-    says = f"mc-nested: {tmp_path / 'run'}: process {os.getpid()} is writing there: wait until it ends, or stop it\n"
-    assert capsys.readouterr().err == says
+    check_one_at_a_time(["train"], tmp_path / "run", capsys)
     assert run("train", "--resume", tmp_path / "run") == 0
 
 
