@@ -125,9 +125,9 @@ def test_a_saved_training_goes_on_to_the_bit(whole: Trainer, ticks: int) -> None
     assert_same(finish(resumed), whole)
 
 
-def live_like(preset: Preset = SMALL) -> tuple[StartsOver, Trainer]:
+def live_like() -> tuple[StartsOver, Trainer]:
     game = StartsOver(BENT)
-    return game, trainer_of([BENT], preset, env=ArenaVectorEnv([ArenaEnv(game, BENT)]))
+    return game, trainer_of([BENT], env=ArenaVectorEnv([ArenaEnv(game, BENT)]))
 
 
 @pytest.mark.parametrize("breaks_in", [1, 3])
