@@ -186,18 +186,8 @@ class Training:
             f'name = "tiny"\nstart = [7, 13]\nstep_limit = 8\ndesign = """\n{grid}"""\n'
             '[[materials]]\nname = "stone"\np = 0\nblock = "stone"\n'
         )
-        self.words = [
-            "train",
-            "--scenario",
-            str(tiny),
-            "--preset",
-            "model-based",
-            "--episodes",
-            "12",
-            "--out",
-            str(self.run),
-        ]
-        self.words += ["--backend", "live", "--profile", str(profile)]
+        self.words = ["train", "--scenario", str(tiny), "--preset", "model-based", "--episodes", "12"]
+        self.words += ["--out", str(self.run), "--backend", "live", "--profile", str(profile)]
 
     def start(self, *words: str) -> "subprocess.Popen[str]":
         command = [*WITH_THIS_PROCESS, sys.executable, "-m", "mc_nested.cli", *(words or self.words)]

@@ -17,6 +17,13 @@ from mc_nested.errors import LiveError, ScenarioError
 from sim.grid import GridGame, arena_env
 
 
+@pytest.fixture
+def begun() -> ArenaEnv:
+    env = arena_env("line")
+    env.reset()
+    return env
+
+
 def test_observations_are_raw_x_y_b() -> None:
     env = arena_env("line")
     observation, info = env.reset()
@@ -43,18 +50,14 @@ def test_spaces_pictures_and_the_checker_follow_the_arenas_size(size: int) -> No
     assert env.placed == scenario.design
 
 
-def test_a_block_on_the_design_earns_1_and_one_off_it_nothing() -> None:
-    env = arena_env("line")
-    env.reset()
-    rewards = [env.step(action)[1] for action in (Action.BD, Action.B, Action.BD, Action.LD, Action.BD)]
+def test_a_block_on_the_design_earns_1_and_one_off_it_nothing(begun: ArenaEnv) -> None:
+    rewards = [begun.step(action)[1] for action in (Action.BD, Action.B, Action.BD, Action.LD, Action.BD)]
     # (7, 14) and (6, 13) lie off the line, (7, 12) on it.
     assert rewards == [0.0, 0.0, 1.0, 0.0, 0.0]
 
 
-def test_a_void_block_earns_nothing_and_none_is_used_up() -> None:
-    env = arena_env("line")
-    env.reset()
-    observation, reward, *_, info = env.step(Action.LD)
+def test_a_void_block_earns_nothing_and_none_is_used_up(begun: ArenaEnv) -> None:
+    observation, reward, *_, info = begun.step(Action.LD)
     assert (observation.tolist(), reward) == ([6, 14, 11], 0.0)
     assert "placed" not in info
 
@@ -70,22 +73,18 @@ def test_the_last_step_brings_the_main_agents_reward(material: str, score: float
     assert env.placed == env.scenario.design
 
 
-def test_the_step_limit_truncates_and_scores_what_stands() -> None:
-    env = arena_env("line")
-    env.reset()
+def test_the_step_limit_truncates_and_scores_what_stands(begun: ArenaEnv) -> None:
     for _ in range(59):
-        assert env.step(Action.L)[2:4] == (False, False)
-    *_, terminated, truncated, info = env.step(Action.L)
+        assert begun.step(Action.L)[2:4] == (False, False)
+    *_, terminated, truncated, info = begun.step(Action.L)
     assert (terminated, truncated, info["score"]) == (False, True, 10.0)
 
 
-def test_the_last_block_on_the_last_step_terminates() -> None:
-    env = arena_env("line")
-    env.reset()
-    for action in [*[Action.L, Action.R] * 23, Action.L, *build(env.scenario)[:-1]]:
-        env.step(action)
+def test_the_last_block_on_the_last_step_terminates(begun: ArenaEnv) -> None:
+    for action in [*[Action.L, Action.R] * 23, Action.L, *build(begun.scenario)[:-1]]:
+        begun.step(action)
     # An odd step aside leaves the agent one cell left of the line: its blocks count for nothing, but they run out.
-    *_, terminated, truncated, _ = env.step(Action.BD)
+    *_, terminated, truncated, _ = begun.step(Action.BD)
     assert (terminated, truncated) == (True, False)
 
 
@@ -145,7 +144,5 @@ def test_the_picture_is_the_arena_as_it_stands() -> None:
     assert (env.render() != before).any()
 
 
-def test_without_a_render_mode_nothing_is_drawn() -> None:
-    env = arena_env("line")
-    env.reset()
-    assert env.render() is None
+def test_without_a_render_mode_nothing_is_drawn(begun: ArenaEnv) -> None:
+    assert begun.render() is None

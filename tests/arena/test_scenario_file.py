@@ -98,6 +98,15 @@ def test_a_scenario_survives_its_table(size: int, worth: list[float], data: st.D
     assert scenario_of(table_of(scenario), "here") == scenario
 
 
+def check_refused(text: str, says: str) -> None:
+    """Raise AssertionError unless that scenario file is refused in one line, which begins with its name and says so."""
+    with pytest.raises(ScenarioError) as caught:
+        parse_scenario(text, "dot.toml")
+    assert str(caught.value).startswith("dot.toml: ")
+    assert says in str(caught.value)
+    assert "\n" not in str(caught.value)
+
+
 def drawn(rows: list[str], start: str = "[3, 4]") -> str:
     """Return a scenario file with that drawing."""
     head = OWN.replace("start = [3, 4]", f"start = {start}").partition("design")[0]
@@ -128,11 +137,7 @@ def test_the_drawings_size_is_the_arenas(size: int) -> None:
     ],
 )
 def test_a_drawing_that_makes_no_arena_is_refused_in_one_line(rows: list[str], start: str, says: str) -> None:
-    with pytest.raises(ScenarioError) as caught:
-        parse_scenario(drawn(rows, start), "dot.toml")
-    assert str(caught.value).startswith("dot.toml: ")
-    assert says in str(caught.value)
-    assert "\n" not in str(caught.value)
+    check_refused(drawn(rows, start), says)
 
 
 @pytest.mark.parametrize(
@@ -158,11 +163,7 @@ def test_a_drawing_that_makes_no_arena_is_refused_in_one_line(rows: list[str], s
     ],
 )
 def test_a_mistake_in_a_file_is_one_line_that_names_it(change: tuple[str, str], says: str) -> None:
-    with pytest.raises(ScenarioError) as caught:
-        parse_scenario(OWN.replace(*change), "dot.toml")
-    message = str(caught.value)
-    assert says in message
-    assert message.startswith("dot.toml: ")
+    check_refused(OWN.replace(*change), says)
 
 
 def test_a_cell_on_the_near_edge_is_refused_as_unreachable() -> None:
@@ -234,8 +235,4 @@ def test_a_scenario_with_parts_survives_its_table(scenario: Scenario) -> None:
     ],
 )
 def test_a_mistake_in_the_parts_is_one_line_that_names_it(text: str, says: str) -> None:
-    with pytest.raises(ScenarioError) as caught:
-        parse_scenario(text, "two.toml")
-    assert str(caught.value).startswith("two.toml: ")
-    assert says in str(caught.value)
-    assert "\n" not in str(caught.value)
+    check_refused(text, says)

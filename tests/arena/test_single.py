@@ -209,6 +209,16 @@ def test_without_the_first_ones_choice_the_episode_of_all_ends_with_score_0() ->
     assert rewards.tolist() == [0.0] * 4
 
 
+def score_of_a_truncated_episode(env: SingleAgentVectorEnv, steps_left: int) -> list[float]:
+    """Return the scores of two who do nothing until they have no step left, which are so many."""
+    for _ in range(steps_left - 1):
+        assert not env.step(np.array([WOOD, WOOD]))[3].any()
+    _, _, terminated, truncated, info = env.step(np.array([WOOD, WOOD]))
+    assert (terminated.tolist(), truncated.tolist()) == ([False] * 2, [True] * 2)
+    scores: list[float] = info["score"].tolist()
+    return scores
+
+
 def test_a_block_is_missing_to_all_and_counts_in_the_score_of_all() -> None:
     env = singles(2)
     env.step(np.array([STONE, STONE]))
@@ -218,11 +228,7 @@ def test_a_block_is_missing_to_all_and_counts_in_the_score_of_all() -> None:
     observations, rewards, *_ = env.step(np.array([B, L]))
     _, rewards, *_ = env.step(np.array([BD, L]))
     assert rewards.tolist() == [1.0, 0.0]
-    for _ in range(55):
-        assert not env.step(np.array([WOOD, WOOD]))[3].any()
-    _, _, terminated, truncated, info = env.step(np.array([WOOD, WOOD]))
-    assert (terminated.tolist(), truncated.tolist()) == ([False] * 2, [True] * 2)
-    assert info["score"].tolist() == [11.0, 11.0]
+    assert score_of_a_truncated_episode(env, steps_left=56) == [11.0, 11.0]
 
 
 def test_a_later_material_action_of_one_of_several_does_nothing_and_counts_as_a_step() -> None:
@@ -230,11 +236,7 @@ def test_a_later_material_action_of_one_of_several_does_nothing_and_counts_as_a_
     env.step(np.array([STONE, STONE]))
     observations, *_ = env.step(np.array([WOOD, L]))
     assert observations.tolist() == [[7, 14, 11, 2], [13, 14, 11, 2]]
-    for _ in range(57):
-        assert not env.step(np.array([WOOD, WOOD]))[3].any()
-    _, _, terminated, truncated, info = env.step(np.array([WOOD, WOOD]))
-    assert (terminated.tolist(), truncated.tolist()) == ([False] * 2, [True] * 2)
-    assert info["score"].tolist() == [10.0, 10.0]
+    assert score_of_a_truncated_episode(env, steps_left=58) == [10.0, 10.0]
 
 
 @given(st.lists(st.integers(0, 9), max_size=70))

@@ -13,20 +13,15 @@ from hypothesis import strategies as st
 from mc_nested.arena.action import Action
 from mc_nested.arena.builder import build
 from mc_nested.arena.env import ArenaEnv
-from mc_nested.arena.game import Game, Resumable
+from mc_nested.arena.game import Game
 from mc_nested.arena.scenario_file import load_scenario
 from mc_nested.arena.single import SingleAgentVectorEnv
 from mc_nested.arena.vector import ArenaVectorEnv, NextStepAutoreset, resumable_arenas
 from mc_nested.errors import ScenarioError
 from sim.grid import GridGame, GridVectorEnv, arena_env
+from tests.learn.made_trainings import StartsOver
 
 LINE = load_scenario("line")
-
-
-class StartsOver(GridGame):
-    @property
-    def resumable(self) -> Resumable | None:
-        return None
 
 
 def arenas(*games: Game) -> ArenaVectorEnv:

@@ -3,11 +3,9 @@
 import dataclasses
 from pathlib import Path
 
-import cv2
 import pytest
 
 from calibration.acceptance_test import ACTIONS, SCENARIO, run_acceptance_test
-from calibration.context import CalibrationContext
 from mc_nested.arena import rules
 from mc_nested.arena.action import Action, Cell
 from mc_nested.errors import LiveError
@@ -16,21 +14,14 @@ from mc_nested.live.devices import Frame, Region
 from mc_nested.live.profile.arena import Arena
 from mc_nested.live.profile.tables import BlocksTable, GameVersion, KeysTable, Profile, ScreenTable
 from sim.client.client import VirtualClient
-from sim.client.drawing.letters import drawn_atlas
 from sim.client.game.options import GameOptions
-from tests.calibration.contexts import context_over
+from tests.calibration.contexts import context_over, font_file_in
 from tests.sim.client.playing import arena_of
 
 
 @pytest.fixture(scope="module")
 def font(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    path = tmp_path_factory.mktemp("font") / "ascii.png"
-    assert cv2.imwrite(str(path), drawn_atlas())
-    return path
-
-
-def context_of(client: VirtualClient) -> CalibrationContext:
-    return context_over(client)
+    return font_file_in(tmp_path_factory.mktemp("font"))
 
 
 def profile_of(client: VirtualClient, font: Path) -> Profile:
@@ -55,14 +46,14 @@ def test_the_acceptance_tests_actions_are_the_eight_and_fill_the_design_by_the_r
 def test_where_one_click_goes_on_placing_the_option_to_switch_off_is_named(seed: int, font: Path) -> None:
     client = VirtualClient(version="26.1", seed=seed, options=GameOptions(toggle_use=True))
     with pytest.raises(LiveError, match=r"Options > Controls > Use Item/Place Block"):
-        run_acceptance_test(context_of(client), profile_of(client, font))
+        run_acceptance_test(context_over(client), profile_of(client, font))
     assert not client.window.down
 
 
 @pytest.mark.parametrize("version", ["1.12.2", "1.20.1"])
 def test_a_good_profile_passes_and_the_arena_is_left_empty(version: str, font: Path) -> None:
     client = VirtualClient(version=version)
-    found = run_acceptance_test(context_of(client), profile_of(client, font))
+    found = run_acceptance_test(context_over(client), profile_of(client, font))
     assert found.lines[0] == "8 actions, 4 blocks: each where it should be"
     assert (found.samples, len(found.pictures)) == (8, 1)
     assert client.built == {}
@@ -94,7 +85,7 @@ def test_the_blocks_are_truly_there_before_they_are_cleared(font: Path) -> None:
     client = VirtualClient()
     profile = profile_of(client, font)
     witness = Witness(client, profile.marked_arena())
-    context = context_of(client)
+    context = context_over(client)
     devices = dataclasses.replace(context.devices, display=witness)
     seen = dataclasses.replace(context, connection=GameConnection(devices, context.controller))
     run_acceptance_test(seen, profile)
@@ -111,5 +102,5 @@ def test_the_blocks_are_truly_there_before_they_are_cleared(font: Path) -> None:
 def test_a_wrong_profile_fails(wrong: dict[str, object], font: Path) -> None:
     client = VirtualClient()
     with pytest.raises(LiveError):
-        run_acceptance_test(context_of(client), profile_of(client, font).model_copy(update=wrong))
+        run_acceptance_test(context_over(client), profile_of(client, font).model_copy(update=wrong))
     assert not client.window.down

@@ -28,7 +28,7 @@ def test_only_missing_buttons_and_an_unreachable_clipboard_do_not_end_the_run() 
     assert [step.name for step in registered_steps() if not step.is_needed] == ["clicks", "cross-check"]
 
 
-@pytest.mark.parametrize("cell", [(-1, 0), (0, -1), (15, 0), (0, 15)])
+@pytest.mark.parametrize("cell", [(-1, 0), (0, -1), (15, 0), (0, 15), (99, 99)])
 def test_a_cell_outside_the_arena_is_refused_before_anything_is_run(cell: Cell) -> None:
     with pytest.raises(UserError, match="outside the arena: choose 0 to 14"):
         registered_steps(standing=cell)

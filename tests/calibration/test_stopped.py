@@ -46,9 +46,9 @@ def moments(step: str, count: int) -> list[float]:
 CASES = [(step, after_s) for step in STEPS for after_s in moments(step, 7)]
 
 
-def check_nothing_left(client: VirtualClient, file: Path, before: bytes, clipboard: str = "mine") -> None:
+def check_nothing_left(client: VirtualClient, file: Path, before: bytes) -> None:
     assert (client.window.down, client.window.strays) == (set(), [])
-    assert client.clipboard.read() == clipboard
+    assert client.clipboard.read() == "mine"
     assert file.read_bytes() == before
     assert sorted(each.name for each in file.parent.iterdir()) == ["ascii.png", "mine.toml"]
 

@@ -1,9 +1,11 @@
 """Trainings that several verbs are tried on."""
 
+import socket
 from pathlib import Path
 
 import pytest
 
+from mc_nested.workers.cluster import connection
 from tests.cli.running import TRAIN, run
 
 
@@ -12,6 +14,15 @@ def trained(tmp_path_factory: pytest.TempPathFactory) -> Path:
     out = tmp_path_factory.mktemp("runs") / "run"
     assert run(*TRAIN, "--out", out) == 0
     return out
+
+
+@pytest.fixture
+def nobodys_port(monkeypatch: pytest.MonkeyPatch) -> str:
+    """Return a port of this machine where no scheduler answers, which is soon given up."""
+    monkeypatch.setattr(connection, "CONNECT_S", 0.5)
+    with socket.socket() as free:
+        free.bind(("127.0.0.1", 0))
+        return str(free.getsockname()[1])
 
 
 @pytest.fixture(scope="session")

@@ -4,7 +4,6 @@ import importlib.metadata
 import os
 import subprocess
 import sys
-from pathlib import Path
 from typing import Any
 
 import pytest
@@ -16,7 +15,7 @@ from mc_nested.cli.app import HIDDEN, MOVED, VERBS, app_for, main
 from mc_nested.cli.interrupt import Stopped
 from mc_nested.errors import PresetError
 from mc_nested.live.input.signals import EndedBySignal
-from tests.cli.running import check_mistake, run
+from tests.cli.running import run
 
 
 def commands_of(*words: str) -> dict[str, Any]:
@@ -106,21 +105,10 @@ def test_whoever_stops_a_verb_is_told_in_one_line(
 
 
 @pytest.mark.parametrize(
-    ("arguments", "says"),
-    [
-        (["frobnicate"], "No such command"),
-    ],
-)
-def test_a_mistake_is_one_line_and_exit_code_2(
-    arguments: list[str], says: str, trained: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    check_mistake(arguments, says, trained, tmp_path, capsys)
-
-
-@pytest.mark.parametrize(
     ("words", "says"),
     [
         (["runs", "--json", "list"], "write --json at the end: mc-nested runs list --json"),
+        (["profiles", "--json", "list"], "write --json at the end: mc-nested profiles list --json"),
         (["recordings", "--json", "trim"], "mc-nested recordings trim takes no --json: leave it out"),
         (["train", "--seed", "3", "serve"], "mc-nested train serve takes no --seed: leave it out"),
         (

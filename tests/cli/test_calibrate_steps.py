@@ -17,8 +17,7 @@ from mc_nested.live.session import Opening
 from mc_nested.view.board import Board
 from mc_nested.view.publisher import Publisher
 from sim.client.client import VirtualClient
-from tests.calibration.contexts import font_file_in, profile_in, started
-from tests.calibration.virtual_context import context_on, profile_of
+from tests.calibration.contexts import context_on, font_file_in, kept_profile, profile_in, started
 from tests.cli.running import run
 
 if TYPE_CHECKING:
@@ -44,6 +43,12 @@ def shared(monkeypatch: pytest.MonkeyPatch) -> VirtualClient:
 
     monkeypatch.setattr(calibrate_steps, "context_opener", opener)
     return client
+
+
+@pytest.fixture
+def file(shared: VirtualClient, tmp_path: Path) -> Path:
+    """Return a profile that can read the shared game."""
+    return kept_profile(shared, tmp_path)
 
 
 def test_what_was_found_is_printed_and_the_font_is_written_into_a_new_profile(
@@ -83,22 +88,9 @@ def test_a_font_that_can_not_be_used_is_one_line_and_nothing_is_written(
     assert client.window.strays == []
 
 
-def test_no_arena_is_built_in_a_shared_game(
-    shared: VirtualClient, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    file = tmp_path / "mine.toml"
-    save_profile(profile_of(shared, tmp_path), file)
-    assert run("calibrate", "arena", "--profile", file) == 2
-    assert capsys.readouterr().err.endswith("or allow it with --server-allowed\n")
-    assert shared.built == {}
-    assert shared.realm.player.feet == (0.5, 64.0, 0.5)
-
-
 def test_an_arena_is_built_and_undone_where_that_is_allowed_and_each_says_which_file_was_written(
-    shared: VirtualClient, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+    shared: VirtualClient, file: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    file = tmp_path / "mine.toml"
-    save_profile(profile_of(shared, tmp_path), file)
     assert run("calibrate", "arena", "--yes", "--server-allowed", "--profile", file) == 0
     assert load_profile(file).arena is not None
     assert capsys.readouterr().out.splitlines()[-1] == f"written to {file}"
@@ -108,10 +100,8 @@ def test_an_arena_is_built_and_undone_where_that_is_allowed_and_each_says_which_
 
 
 def test_the_arena_is_as_large_as_was_asked_for_and_a_size_that_none_has_is_one_line(
-    shared: VirtualClient, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+    shared: VirtualClient, file: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    file = tmp_path / "mine.toml"
-    save_profile(profile_of(shared, tmp_path), file)
     before = file.read_bytes()
     assert run("calibrate", "arena", "--yes", "--server-allowed", "--profile", file, "--size", "33") == 2
     assert capsys.readouterr().err == (
@@ -153,7 +143,7 @@ def test_from_a_bare_profile_to_points_that_are_shown(
     ("words", "message"),
     [
         (("clicks",), "run mc-nested calibrate font first"),
-        (("arena", "--mark-only", "--undo"), "choose one of them"),
+        (("walk",), "run mc-nested calibrate font first"),
         (("clicks", "--show", "--dry-run"), "choose one of them"),
         (("clicks", "--show"), "has no points with pictures"),
         (("clicks", "--hotkey", "f9"), "can't both record and skip"),
@@ -178,8 +168,7 @@ def test_a_mistake_is_one_line_and_nothing_is_written(
 def test_what_was_measured_is_printed_and_written(
     client: VirtualClient, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    file = tmp_path / "mine.toml"
-    save_profile(profile_of(client, tmp_path), file)
+    file = kept_profile(client, tmp_path)
     assert run("calibrate", "walk", "--profile", file) == 0
     printed = capsys.readouterr().out.splitlines()
     assert printed[0].startswith("Measuring how you walk")
@@ -189,13 +178,12 @@ def test_what_was_measured_is_printed_and_written(
     assert load_profile(file).walk.inertia == pytest.approx(0.546, abs=0.002)
 
 
-def test_a_shared_game_is_not_walked_in_and_nothing_is_pressed(
-    shared: VirtualClient, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+@pytest.mark.parametrize("step", ["arena", "walk"])
+def test_in_a_shared_game_nothing_is_built_and_nobody_walks(
+    step: str, shared: VirtualClient, file: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    file = tmp_path / "mine.toml"
-    save_profile(profile_of(shared, tmp_path), file)
     before = file.read_bytes()
-    assert run("calibrate", "walk", "--profile", file) == 2
+    assert run("calibrate", step, "--profile", file) == 2
     assert capsys.readouterr().err.endswith("or allow it with --server-allowed\n")
     assert shared.built == {}
     assert shared.realm.player.feet == (0.5, 64.0, 0.5)
@@ -221,17 +209,6 @@ def test_a_shared_game_is_walked_in_where_that_is_allowed(
         f"written to mine; look at the curve in {tmp_path / 'curve.png'}",
     ]
     assert run("calibrate", "walk", "--profile", "mine") == 2
-
-
-def test_a_profile_without_a_font_is_one_line_and_nothing_is_written(
-    client: VirtualClient, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    assert run("calibrate", "walk", "--profile", tmp_path / "new.toml") == 2
-    error = capsys.readouterr().err
-    assert "run mc-nested calibrate font first" in error
-    assert error.count("\n") == 1
-    assert list(tmp_path.iterdir()) == []
-    assert client.window.strays == []
 
 
 class OnlyQuestion:

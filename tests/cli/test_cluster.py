@@ -9,9 +9,9 @@ from pathlib import Path
 
 import pytest
 
-from tests.cli.running import run
+from tests.cli.running import run, write_study
 from tests.dask_fixture import LEFTOVERS, leftovers
-from tests.learn.made_experiments import DOT, scenario_text, small_preset_text
+from tests.learn.made_experiments import DOT
 from tests.workers.cluster.dask_programs import scheduler, worker
 
 __all__ = ["leftovers"]
@@ -37,11 +37,7 @@ def url(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
 
 @pytest.fixture(scope="module")
 def words(tmp_path_factory: pytest.TempPathFactory) -> list[str]:
-    folder = tmp_path_factory.mktemp("made")
-    (folder / "dot.toml").write_text(scenario_text(DOT), "utf-8")
-    (folder / "small.toml").write_text(small_preset_text(), "utf-8")
-    own = ["--scenario", str(folder / "dot.toml"), "--preset", str(folder / "small.toml")]
-    return ["reproduce", *own, "--trials", "2", "-q"]
+    return ["reproduce", *write_study(tmp_path_factory.mktemp("made"), DOT), "-q"]
 
 
 @pytest.fixture(scope="module")

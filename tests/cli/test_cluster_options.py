@@ -1,6 +1,5 @@
 """The options of a cluster: mistakes are one line, before anything is written."""
 
-import socket
 from pathlib import Path
 
 import pytest
@@ -9,9 +8,8 @@ from mc_nested.cli import cluster_options
 from mc_nested.cli.cluster_options import cluster_of, workers_of
 from mc_nested.cli.output import Output
 from mc_nested.errors import ClusterError
-from mc_nested.workers.cluster import connection
 from mc_nested.workers.cluster.address import SchedulerAddress
-from tests.cli.running import run
+from tests.cli.running import check_mistake
 from tests.dask_fixture import LEFTOVERS, leftovers
 from tests.workers.cluster.dask_programs import scheduler
 
@@ -50,17 +48,10 @@ def test_a_mistake_is_one_line_and_writes_nothing(
     verb: str,
     words: list[str],
     says: str,
+    nobodys_port: str,
+    trained: Path,
     tmp_path: Path,
-    monkeypatch: pytest.MonkeyPatch,
     capsys: pytest.CaptureFixture[str],
 ) -> None:
-    monkeypatch.setattr(connection, "CONNECT_S", 0.5)
-    with socket.socket() as free:
-        free.bind(("127.0.0.1", 0))
-        port = str(free.getsockname()[1])
-    out = tmp_path / "out"
-    assert run(*verb.split(), *(word.replace("PORT", port) for word in words), "--out", out) == 2
-    said = capsys.readouterr().err
-    assert says.replace("PORT", port) in said
-    assert said.count("\n") == 1
-    assert not out.exists()
+    words = [word.replace("PORT", nobodys_port) for word in (*verb.split(), *words, "--out", "NEW")]
+    check_mistake(words, says.replace("PORT", nobodys_port), trained, tmp_path, capsys)

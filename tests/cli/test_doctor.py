@@ -11,15 +11,9 @@ from calibration.doctor.check import Check, CheckName, Status
 from calibration.doctor.examination import Examination, examine
 from calibration.installation.folders import System
 from mc_nested.cli import doctor
-from mc_nested.cli.app import main
 from mc_nested.errors import DesktopError
 from mc_nested.live.profile.tables import Profile
-
-
-def code_of(*words: str | Path) -> int | str:
-    with pytest.raises(SystemExit) as ended:
-        main([str(word) for word in words])
-    return ended.value.code or 0
+from tests.cli.running import run
 
 
 @pytest.fixture
@@ -43,7 +37,7 @@ def with_rows(monkeypatch: pytest.MonkeyPatch, *statuses: Status) -> None:
 
 
 def test_json_is_one_object_of_all_rows_and_nothing_else(bare: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    assert code_of("doctor", "--json", "--profile", bare / "none.toml") == 1
+    assert run("doctor", "--json", "--profile", bare / "none.toml") == 1
     printed = json.loads(capsys.readouterr().out)
     assert list(printed) == ["checks"]
     assert [check["name"] for check in printed["checks"]] == list(CheckName)
@@ -59,7 +53,7 @@ def test_the_exit_code_says_whether_a_row_fails(
 ) -> None:
     with_rows(monkeypatch, *statuses)
     for words in ((), ("--json",), ("--fix",)):
-        assert code_of("doctor", *words) == code
+        assert run("doctor", *words) == code
         assert capsys.readouterr().out
 
 
@@ -67,7 +61,7 @@ def test_the_table_fits_a_hundred_columns_and_names_every_row(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     with_rows(monkeypatch, "pass", "warn", "fail", "skip")
-    code_of("doctor")
+    run("doctor")
     lines = capsys.readouterr().out.splitlines()
     assert max(len(line) for line in lines) <= 100
     assert all(any(line.startswith(name) for line in lines) for name in CheckName)
@@ -80,7 +74,7 @@ def test_fix_writes_shows_the_rows_as_they_are_then_and_keeps_json_alone_on_its_
     options = bare / ".minecraft" / "options.txt"
     options.parent.mkdir()
     options.write_text("lang:en_us\nautoJump:true\n", "utf-8")
-    assert code_of("doctor", "--json", "--fix", "--profile", bare / "none.toml") == 1  # there is still no desktop
+    assert run("doctor", "--json", "--fix", "--profile", bare / "none.toml") == 1  # there is still no desktop
     printed = capsys.readouterr()
     assert options.read_text("utf-8") == "lang:en_us\nautoJump:false\n"
     assert "autoJump true -> false" in printed.err
@@ -95,7 +89,7 @@ def test_an_examination_that_is_stopped_ends_as_a_stopped_command(
         raise KeyboardInterrupt
 
     monkeypatch.setattr(doctor, "examine", stopped)
-    assert code_of("doctor", "--json") == 130
+    assert run("doctor", "--json") == 130
     assert capsys.readouterr().out == ""
 
 
@@ -107,7 +101,7 @@ if sys.platform.startswith("linux"):
         for name in ("DISPLAY", "WAYLAND_DISPLAY", "XDG_SESSION_TYPE", "XDG_DATA_HOME", "XDG_CONFIG_HOME"):
             monkeypatch.delenv(name, raising=False)
         monkeypatch.setenv("HOME", str(tmp_path))
-        assert code_of("doctor", "--json") == 1
+        assert run("doctor", "--json") == 1
         rows = {check["name"]: check for check in json.loads(capsys.readouterr().out)["checks"]}
         assert tuple(rows) == tuple(CheckName)
         assert rows["session"]["status"] == "fail"

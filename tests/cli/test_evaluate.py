@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from mc_nested.learn.runs.checkpoint import FILE
-from tests.cli.running import check_mistake, run
+from tests.cli.running import run
 from tests.learn.runs.changed_arrays import change_arrays
 
 
@@ -29,19 +29,6 @@ def test_names_are_shown_as_they_are_written(tmp_path: Path, capsys: pytest.Capt
     printed = capsys.readouterr().out
     assert "[/b] $x_{$, greedy" in printed
     assert "[/s]" in printed or "[/w]" in printed
-
-
-@pytest.mark.parametrize(
-    ("arguments", "says"),
-    [
-        (["runs", "evaluate", "NEW" + "x" * 300], "File name too long"),
-        (["runs", "evaluate", "NEW"], "no config.toml there"),
-    ],
-)
-def test_a_mistake_is_one_line_and_exit_code_2(
-    arguments: list[str], says: str, trained: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    check_mistake(arguments, says, trained, tmp_path, capsys)
 
 
 @pytest.mark.parametrize(

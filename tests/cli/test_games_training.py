@@ -1,10 +1,8 @@
 """``mc-nested train --games`` and ``train serve``: processes of their own, over a real scheduler."""
 
-import csv
 import json
 import os
 import signal
-import socket
 import subprocess
 import sys
 import threading
@@ -22,7 +20,6 @@ from mc_nested.cli import games_at_play, serve
 from mc_nested.learn.games.games_trainer import GamesTrainer
 from mc_nested.learn.preset import load_preset
 from mc_nested.learn.runs.checkpoint import FILE
-from mc_nested.workers.cluster import connection
 from mc_nested.workers.cluster.address import SchedulerAddress
 from mc_nested.workers.cluster.connection import connected
 from mc_nested.workers.cluster.keys import make_keys
@@ -35,7 +32,7 @@ from mc_nested.workers.games.game_worker import GameWorker
 from mc_nested.workers.games.mailbox import Mailbox
 from mc_nested.workers.games.messages import GameAnswer, GameSetup
 from sim.virtual_games import VirtualPlay, open_virtual_games
-from tests.cli.running import run
+from tests.cli.running import check_mistake, run, table
 from tests.dask_fixture import LEFTOVERS, leftovers
 from tests.learn.made_experiments import DOT, scenario_text
 from tests.workers.cluster.dask_programs import scheduler, tls_words
@@ -92,6 +89,14 @@ class Served:
 def served(url: str, tmp_path: Path) -> Iterator[Served]:
     with ExitStack() as stack:
         yield Served(url, tmp_path, stack)
+
+
+def begun_beside(served: Served, words: list[str], until: str = "episode") -> subprocess.Popen[str]:
+    """Begin a training in a process of its own, and wait until the game named one says these words."""
+    training = subprocess.Popen([sys.executable, "-m", "mc_nested.cli", *words], stderr=subprocess.PIPE, text=True)
+    while training.poll() is None and until not in served.said("one"):
+        time.sleep(0.05)
+    return training
 
 
 def serve_here(url: str, is_over: threading.Event) -> threading.Thread:
@@ -171,8 +176,8 @@ def test_one_game_in_lockstep_learns_what_train_learns_by_itself(
     assert run(*words, "--out", alone) == 0
     game = served.begin("one")
     assert run(*words, "--games", url, "--out", together) == 0
-    for table in ("episodes.csv", "evaluations.csv"):
-        assert (together / table).read_bytes() == (alone / table).read_bytes()
+    for name in ("episodes.csv", "evaluations.csv"):
+        assert (together / name).read_bytes() == (alone / name).read_bytes()
     with (
         np.load(alone / "checkpoint" / FILE) as ours,
         np.load(together / "checkpoint" / FILE) as its,
@@ -190,15 +195,12 @@ def test_two_games_of_which_one_is_killed_reach_the_optimum(
     games = [served.begin(name) for name in ("one", "two")]
     out = tmp_path / "out"
     words = [*TRAIN, "--scenario", str(design), "--games", url, "--out", str(out)]
-    training = subprocess.Popen([sys.executable, "-m", "mc_nested.cli", *words], stderr=subprocess.PIPE, text=True)
-    while training.poll() is None and "episode" not in served.said("one"):
-        time.sleep(0.05)
+    training = begun_beside(served, words)
     games[0].kill()
     _, said = training.communicate(timeout=120)
     assert training.returncode == 0, said
     assert "one is gone" in said
-    with (out / "episodes.csv").open(newline="", encoding="utf-8") as file:
-        episodes = [int(row["episode"]) for row in csv.DictReader(file)]
+    episodes = [int(row["episode"]) for row in table(out / "episodes.csv")]
     assert episodes == list(range(1, len(episodes) + 1))
 
 
@@ -217,18 +219,18 @@ def test_a_game_of_another_kind_refuses_at_both_ends(
 @pytest.mark.parametrize(
     ("words", "says"),
     [
-        (["train", "--games", "127.0.0.1:PORT", "--out", "OUT"], "--games are live, or on the virtual client"),
+        (["train", "--games", "127.0.0.1:PORT", "--out", "NEW"], "--games are live, or on the virtual client"),
         (
-            [*TRAIN, "--games", "127.0.0.1:PORT", "--out", "OUT"],
+            [*TRAIN, "--games", "127.0.0.1:PORT", "--out", "NEW"],
             "no scheduler answered at tcp://127.0.0.1:PORT: start one there",
         ),
-        ([*TRAIN, "--games", "10.0.0.1", "--out", "OUT"], "needs this machine's keys"),
-        ([*TRAIN, "--games", "tcp://10.0.0.1", "--out", "OUT"], "is not encrypted"),
-        ([*TRAIN, "--games", "127.0.0.1", "--profile", "x", "--out", "OUT"], "leave out --profile"),
-        ([*TRAIN, "--games", "127.0.0.1", "--record", "all", "--out", "OUT"], "leave out --record"),
-        ([*TRAIN, "--games", "127.0.0.1", "--trials", "2", "--out", "OUT"], "games teach one trial together"),
-        ([*TRAIN, "--insecure", "--out", "OUT"], "name their scheduler with --games"),
-        ([*TRAIN, "--preset", "tuned", "--games", "127.0.0.1", "--out", "OUT"], "[excursions] need the learner"),
+        ([*TRAIN, "--games", "10.0.0.1", "--out", "NEW"], "needs this machine's keys"),
+        ([*TRAIN, "--games", "tcp://10.0.0.1", "--out", "NEW"], "is not encrypted"),
+        ([*TRAIN, "--games", "127.0.0.1", "--profile", "x", "--out", "NEW"], "leave out --profile"),
+        ([*TRAIN, "--games", "127.0.0.1", "--record", "all", "--out", "NEW"], "leave out --record"),
+        ([*TRAIN, "--games", "127.0.0.1", "--trials", "2", "--out", "NEW"], "games teach one trial together"),
+        ([*TRAIN, "--insecure", "--out", "NEW"], "name their scheduler with --games"),
+        ([*TRAIN, "--preset", "tuned", "--games", "127.0.0.1", "--out", "NEW"], "[excursions] need the learner"),
         (["train", "serve", "--scheduler", "127.0.0.1:PORT", "--backend", "virtual"], "no scheduler answered at"),
         (["train", "serve", "--scheduler", "10.0.0.1", "--backend", "virtual"], "needs this machine's keys"),
         (["train", "serve", "--scheduler", "127.0.0.1:PORT", "--profile", "nobody"], "nobody"),
@@ -236,18 +238,15 @@ def test_a_game_of_another_kind_refuses_at_both_ends(
     ],
 )
 def test_a_mistake_is_one_line_and_writes_nothing(
-    words: list[str], says: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+    words: list[str],
+    says: str,
+    nobodys_port: str,
+    trained: Path,
+    tmp_path: Path,
+    capsys: pytest.CaptureFixture[str],
 ) -> None:
-    monkeypatch.setattr(connection, "CONNECT_S", 0.5)
-    with socket.socket() as free:
-        free.bind(("127.0.0.1", 0))
-        port = str(free.getsockname()[1])
-    out = tmp_path / "out"
-    assert run(*(word.replace("PORT", port).replace("OUT", str(out)) for word in words)) == 2
-    said = capsys.readouterr().err
-    assert says.replace("PORT", port) in said
-    assert said.count("\n") == 1
-    assert not out.exists()
+    words = [word.replace("PORT", nobodys_port) for word in words]
+    check_mistake(words, says.replace("PORT", nobodys_port), trained, tmp_path, capsys)
 
 
 @pytest.mark.slow
@@ -255,9 +254,7 @@ def test_two_games_of_one_name_are_refused_at_both_ends(url: str, served: Served
     served.begin("one")
     words = [*TRAIN, "--scenario", str(design), "--games", url, "--out", str(tmp_path / "out"), "--episodes", "1000"]
     words.remove("--stop-at-optimum")
-    training = subprocess.Popen([sys.executable, "-m", "mc_nested.cli", *words], stderr=subprocess.PIPE, text=True)
-    while training.poll() is None and "episode" not in served.said("one"):
-        time.sleep(0.05)
+    training = begun_beside(served, words)
     log = tmp_path / "second.log"
     program = [sys.executable, "-m", "mc_nested.cli", "train", "serve", "--scheduler", url, "--name", "one"]
     with log.open("wb") as file:
@@ -330,9 +327,7 @@ def test_a_scheduler_that_is_killed_saves_the_training(design: Path, tmp_path: P
         served.begin("one")
         words = [*TRAIN, "--scenario", str(design), "--games", address, "--out", str(tmp_path / "out")]
         words.remove("--stop-at-optimum")
-        training = subprocess.Popen([sys.executable, "-m", "mc_nested.cli", *words], stderr=subprocess.PIPE, text=True)
-        while training.poll() is None and "episode 2" not in served.said("one"):
-            time.sleep(0.05)
+        training = begun_beside(served, words, until="episode 2")
         killed.close()
         _, said = training.communicate(timeout=60)
     assert training.returncode == 2

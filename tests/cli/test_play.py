@@ -7,7 +7,7 @@ import pytest
 
 from mc_nested.errors import LiveError, NotInFrontError, StoppedError
 from tests.cli.fragile_game import open_live
-from tests.cli.running import check_mistake, run
+from tests.cli.running import run
 
 
 def test_play_shows_the_arena_and_the_score(trained: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -76,16 +76,3 @@ def test_the_simulator_has_no_window_to_picture(tmp_path: Path, capsys: pytest.C
     assert run("train", "--episodes", "1", "--out", tmp_path / "run") == 0
     assert run("play", tmp_path / "run", "--screenshots") == 2
     assert "leave out --screenshots" in capsys.readouterr().err
-
-
-@pytest.mark.parametrize(
-    ("arguments", "says"),
-    [
-        (["play", "TRAINED", "--trial", "2"], "has no trial 2: choose 0 to 1"),
-        (["play", "TRAINED", "--backend", "live", "--profile", "NEW.toml"], "no profile"),
-    ],
-)
-def test_a_mistake_is_one_line_and_exit_code_2(
-    arguments: list[str], says: str, trained: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    check_mistake(arguments, says, trained, tmp_path, capsys)

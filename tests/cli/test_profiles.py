@@ -59,11 +59,6 @@ def test_json_lists_one_object_for_each_profile(
     assert found["profiles"][0]["window"] == [854, 480]
 
 
-def test_json_belongs_behind_the_verb(capsys: pytest.CaptureFixture[str]) -> None:
-    assert run("profiles", "--json", "list") == 2
-    assert capsys.readouterr().err == "mc-nested: write --json at the end: mc-nested profiles list --json\n"
-
-
 def test_without_any_profile_the_list_says_how_to_make_one(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     for file in folder.iterdir():
         file.unlink()

@@ -7,13 +7,13 @@ import cv2
 import numpy as np
 import pytest
 
-from mc_nested.cli.app import main
 from mc_nested.live.model.reading import Target
 from mc_nested.live.vision.font import font_of
 from sim.client.drawing.f3_layers import paint
 from sim.client.drawing.letters import drawn_atlas
 from sim.client.game.f3_screen import F3Screen
-from tests.cli.running import check_mistake
+from tests.calibration.contexts import font_file_in
+from tests.cli.running import run
 
 STONE = F3Screen("1.16-1.19.2", 2, (8.5, 64.0, -3.25), 0.0, 65.0, Target((8, 63, -2), "minecraft:stone"))
 SKY = F3Screen("1.16-1.19.2", 2, (8.5, 64.0, -3.25), 0.0, -65.0)
@@ -21,16 +21,13 @@ SKY = F3Screen("1.16-1.19.2", 2, (8.5, 64.0, -3.25), 0.0, -65.0)
 
 def printed(capsys: pytest.CaptureFixture[str], *words: str | Path) -> list[str]:
     """Return what the command prints, line by line."""
-    with pytest.raises(SystemExit) as ended:
-        main(["read", *map(str, words)])
-    assert ended.value.code in (0, None)
+    assert run("read", *words) == 0
     return capsys.readouterr().out.splitlines()
 
 
 @pytest.fixture
 def font(tmp_path: Path) -> Path:
-    cv2.imwrite(str(tmp_path / "ascii.png"), drawn_atlas())
-    return tmp_path / "ascii.png"
+    return font_file_in(tmp_path)
 
 
 def picture(path: Path, screen: F3Screen) -> Path:
@@ -75,10 +72,8 @@ def test_a_file_that_is_no_picture_is_a_mistake_once_the_others_are_read(
 ) -> None:
     (tmp_path / "notes.txt").write_text("no picture", "utf-8")
     images = [tmp_path / "notes.txt", picture(tmp_path / "a.png", STONE), tmp_path / "none.png"]
-    with pytest.raises(SystemExit) as ended:
-        main(["read", *map(str, images), "--font", str(font), *(["--json"] if as_json else [])])
+    assert run("read", *images, "--font", font, *(["--json"] if as_json else [])) == 2
     said = capsys.readouterr()
-    assert ended.value.code == 2
     assert len(said.out.splitlines()) == 1
     assert said.err == (
         f"mc-nested: {tmp_path / 'notes.txt'} is not a picture: give a PNG of the game's window, as F2 takes it; "
@@ -109,17 +104,3 @@ def test_a_font_that_is_named_goes_before_the_profiles(
     profile.write_text("[screen]\nfont = '/nowhere/ascii.png'\n", "utf-8")
     (line,) = printed(capsys, picture(tmp_path / "a.png", STONE), "--profile", profile, "--font", font)
     assert "at 8.500" in line
-
-
-@pytest.mark.parametrize(
-    ("arguments", "says"),
-    [
-        (["read", "NEW.png"], "name the game's font"),
-        (["read", "NEW.png", "--font", "NEW.jar"], "NEW.jar"),
-        (["read", "NEW.png", "--font", "TRAINED/config.toml"], "config.toml"),
-    ],
-)
-def test_a_mistake_is_one_line_and_exit_code_2(
-    arguments: list[str], says: str, trained: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    check_mistake(arguments, says, trained, tmp_path, capsys)

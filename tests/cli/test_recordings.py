@@ -10,11 +10,12 @@ from calibration.bug_report import write_bug_report
 from calibration.doctor.check import Check, CheckName
 from calibration.report.privacy import Names
 from mc_nested.cli import recordings
-from mc_nested.cli.app import main
 from mc_nested.cli.output import json_fields
 from mc_nested.live.recording.recording_file import facts_of
 from mc_nested.live.recording.run_recorder import MOST_RECORDINGS, kept_recordings, recordings_folder
 from sim.client.drawing.letters import drawn_atlas
+from tests.calibration.contexts import font_file_in
+from tests.cli import running
 from tests.live.recording.recorded_play import record_play
 
 pytestmark = pytest.mark.skipif("sys.platform != 'linux'", reason="elsewhere the folder isn't named by a variable")
@@ -37,16 +38,8 @@ def kept(recorded: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Pat
 
 
 def run(capsys: pytest.CaptureFixture[str], *words: str) -> tuple[int, str]:
-    with pytest.raises(SystemExit) as ended:
-        main(words)
-    said = capsys.readouterr()
-    return int(ended.value.code or 0), said.out + said.err
-
-
-def font(folder: Path) -> str:
-    path = folder / "font.png"
-    cv2.imwrite(str(path), drawn_atlas())
-    return str(path)
+    code, said = running.run(*words), capsys.readouterr()
+    return code, said.out + said.err
 
 
 def test_recordings_are_listed_with_what_they_hold(kept: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -105,7 +98,7 @@ def test_a_part_that_is_cut_out_replays_the_same(
     out = tmp_path / "part.mcap"
     code, said = run(capsys, "recordings", "cut", kept.name, str(out), "--no-pictures")
     assert (code, "0 pictures" in said) == (0, False)
-    code, said = run(capsys, "replay", str(out), "--font", font(tmp_path), "--json")
+    code, said = run(capsys, "replay", str(out), "--font", str(font_file_in(tmp_path)), "--json")
     seen = json.loads(said)
     assert code == 0
     assert (seen["actions"], seen["followed"], seen["differences"]) == (30, 30, [])

@@ -17,10 +17,10 @@ from mc_nested.cli import study as study_module
 from mc_nested.cli.output import json_fields
 from mc_nested.cli.reproduce import reproduce
 from mc_nested.learn.runs.checkpoint import FILE
-from mc_nested.learn.runs.folder_lock import folder_lock
 from mc_nested.studies.reproduce import STUDY
-from tests.cli.running import run, table
-from tests.learn.made_experiments import BAR, DOT, scenario_text, small_preset_text
+from tests.cli.running import check_mistake, check_one_at_a_time, run, table, write_study
+from tests.full_disk import full_disk
+from tests.learn.made_experiments import BAR, DOT, small_preset_text
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="Windows has no signals for other processes")
 
@@ -31,16 +31,13 @@ WRITTEN = ("results.csv", "figure5.png", "figure5.svg", "report.md")
 @pytest.fixture(scope="module")
 def files(tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder = tmp_path_factory.mktemp("files")
-    for scenario in (DOT, BAR):
-        (folder / f"{scenario.name}.toml").write_text(scenario_text(scenario), "utf-8")
-    (folder / "small.toml").write_text(small_preset_text(), "utf-8")
+    write_study(folder, DOT, BAR)
     return folder
 
 
 @pytest.fixture(scope="module")
 def words(files: Path) -> list[str]:
-    scenarios = ["--scenario", str(files / "dot.toml"), "--scenario", str(files / "bar.toml")]
-    return ["reproduce", *scenarios, "--preset", str(files / "small.toml"), "--trials", "2", "--seed", "5"]
+    return ["reproduce", *write_study(files, DOT, BAR), "--seed", "5"]
 
 
 @pytest.fixture(scope="module")
@@ -54,14 +51,6 @@ def written(folder: Path) -> dict[str, bytes]:
     """Return the files that it ends with, the report without its lines that name seconds."""
     found = {name: (folder / name).read_bytes() for name in WRITTEN}
     return {**found, "report.md": re.sub(rb"(?m)^.*[Ss]econds.*$", b"", found["report.md"])}
-
-
-def test_a_preset_that_an_agent_can_not_use_is_refused_before_anything_is_trained(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    assert run("reproduce", "--preset", "tuned", "--out", tmp_path / "run") == 2
-    assert "is not for the single agent" in capsys.readouterr().err
-    assert not (tmp_path / "run").exists()
 
 
 @pytest.mark.parametrize(
@@ -92,16 +81,9 @@ def test_a_reproduction_leaves_its_results_and_what_made_them(done: Path) -> Non
 
 
 def test_train_gives_the_same_runs(done: Path, files: Path, tmp_path: Path) -> None:
-    train: list[str | Path] = [
-        "train",
-        "--agent",
-        "hierarchical",
-        "--scenario",
-        files / "bar.toml",
-        "--preset",
-        files / "small.toml",
-    ]
-    assert run(*train, "--trials", "2", "--seed", "5", "--out", tmp_path / "run") == 0
+    assert (
+        run("train", "--agent", "hierarchical", *write_study(files, BAR), "--seed", "5", "--out", tmp_path / "run") == 0
+    )
     alone = (tmp_path / "run" / "evaluations.csv").read_text().splitlines()[1:]
     rows = [row for row in table(done / "results.csv") if (row["agent"], row["scenario"]) == ("hierarchical", "bar")]
     assert sorted((int(row["trial"]), int(row["episode"]), float(row["score"])) for row in rows) == sorted(
@@ -124,10 +106,7 @@ def test_resuming_a_finished_reproduction_writes_the_same_files_again(
 
 
 def test_a_reproduction_is_resumed_by_one_process_at_a_time(done: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    with folder_lock(done):
-        assert run("reproduce", "--resume", done) == 2
-    says = f"mc-nested: {done}: process {os.getpid()} is writing there: wait until it ends, or stop it\n"
-    assert capsys.readouterr().err == says
+    check_one_at_a_time(["reproduce"], done, capsys)
 
 
 def test_json_has_the_files_and_the_verdicts(done: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -270,11 +249,8 @@ def test_if_the_command_is_killed_its_processes_save_and_end(words: list[str], t
 def test_a_disk_that_fills_up_at_the_end_costs_one_line_and_no_file(
     done: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    def full(*_: object, **__: object) -> None:
-        raise OSError(28, "No space left on device")
-
     before = written(done)
-    monkeypatch.setattr("matplotlib.figure.Figure.savefig", full)
+    monkeypatch.setattr("matplotlib.figure.Figure.savefig", full_disk)
     assert run("reproduce", "--resume", done) == 2
     said = capsys.readouterr().err
     assert "No space left on device" in said
@@ -312,14 +288,6 @@ def test_a_disk_that_fills_up_at_the_end_costs_one_line_and_no_file(
 def test_a_mistake_is_one_line_and_exit_code_2(
     arguments: list[str], says: str, done: Path, files: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    (files / "odd.toml").write_text(small_preset_text() + "\nlearning_rte = 1\n", "utf-8")
-    names = {"DONE": done, "NEW": tmp_path / "new", "ODD": files / "odd.toml"}
-    before = {path: path.read_bytes() for path in done.rglob("*") if path.is_file()}
-    assert run(*(str(names.get(word, word)) for word in arguments)) == 2
-    printed = capsys.readouterr()
-    assert printed.out == ""
-    assert printed.err.startswith("mc-nested: ")
-    assert printed.err.count("\n") == 1
-    assert says in printed.err
-    assert list(tmp_path.iterdir()) == []
-    assert {path: path.read_bytes() for path in done.rglob("*") if path.is_file()} == before
+    odd = files / "odd.toml"
+    odd.write_text(small_preset_text() + "\nlearning_rte = 1\n", "utf-8")
+    check_mistake([word.replace("ODD", str(odd)) for word in arguments], says, done, tmp_path, capsys)

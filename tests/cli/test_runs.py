@@ -49,11 +49,6 @@ def test_json_lists_one_object_for_each_run(words: list[str], capsys: pytest.Cap
     assert (whole["episodes_done"], whole["optimum"], whole["why"]) == (80, 21.0, None)
 
 
-def test_json_belongs_behind_the_verb(capsys: pytest.CaptureFixture[str]) -> None:
-    assert run("runs", "--json", "list") == 2
-    assert capsys.readouterr().err == "mc-nested: write --json at the end: mc-nested runs list --json\n"
-
-
 def test_without_any_run_the_list_says_how_to_make_one(here: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert run("runs", "list", here / "nothing") == 0
     assert capsys.readouterr().out == f"no runs in {here / 'nothing'}: mc-nested train makes one\n"

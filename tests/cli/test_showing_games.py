@@ -6,14 +6,13 @@ from pathlib import Path
 from rich.console import Console
 
 from mc_nested.arena.action import Cell
-from mc_nested.arena.scenario_file import table_of
 from mc_nested.cli.progress import TrainingProgress
 from mc_nested.cli.training_view import TrainingView
-from mc_nested.learn.runs.run_config import RunConfig
 from mc_nested.report.tensorboard import FILE, TensorBoard
 from mc_nested.view.board import Board
 from tests.learn.games.lockstep import finish, game_of, learner_of
 from tests.learn.imagination.made_games import BENT, SMALL
+from tests.learn.made_experiments import run_config
 
 
 class OneArena:
@@ -28,17 +27,9 @@ class OneArena:
 
 def test_its_progress_its_view_and_its_events_are_those_of_one_trial(tmp_path: Path) -> None:
     learner = learner_of(BENT, SMALL)
-    config = RunConfig(
-        agent="nested",
-        backend="sim",
-        trials=1,
-        seed=0,
-        stop_at_optimum=False,
-        preset_name="small",
-        preset=SMALL,
-        scenario=table_of(BENT),
-    )
-    board, console = Board("train", "a title"), Console(file=io.StringIO(), width=120)
+    config = run_config(BENT, preset=SMALL)
+    board, said = Board("train", "a title"), io.StringIO()
+    console = Console(file=said, width=120)
     view, events = TrainingView(board, learner, BENT, OneArena(), config), TensorBoard([tmp_path], learner)
     with TrainingProgress(BENT, learner, console) as progress:
         finish(learner, game_of(BENT, SMALL))
@@ -49,10 +40,5 @@ def test_its_progress_its_view_and_its_events_are_those_of_one_trial(tmp_path: P
     assert learning is not None
     assert (learning.episodes, learning.best, learning.at_optimum) == (SMALL.episodes, BENT.optimum, 1)
     assert "3 of 3 cells known" in learning.exploring
-    assert f"episodes {SMALL.episodes} of at most {SMALL.episodes}" in said(console)
+    assert f"episodes {SMALL.episodes} of at most {SMALL.episodes}" in said.getvalue()
     assert (tmp_path / FILE).stat().st_size > 0
-
-
-def said(console: Console) -> str:
-    assert isinstance(console.file, io.StringIO)
-    return console.file.getvalue()

@@ -28,8 +28,3 @@ def test_a_study_takes_the_options_that_it_declares_and_those_of_every_study(
 def test_help_names_the_defaults_of_each_study(capsys: pytest.CaptureFixture[str]) -> None:
     assert run("study", "sweep", "--help") == 0
     assert "1000; 1<=x" in capsys.readouterr().out
-
-
-def test_an_option_of_another_study_is_refused(capsys: pytest.CaptureFixture[str]) -> None:
-    assert run("study", "sweep", "--designs", "3") == 2
-    assert capsys.readouterr().err == "mc-nested: No such option: --designs\n"

@@ -1,17 +1,15 @@
 """``mc-nested study ablation``: its folder, its files, and what it refuses."""
 
-import csv
 import json
 from pathlib import Path
 
 import pytest
 
-from mc_nested.learn.runs.folder_lock import folder_lock
 from mc_nested.studies.ablation import arms
 from mc_nested.studies.config import StudyConfig, config_of
 from mc_nested.studies.folder import StudyFolder
 from mc_nested.studies.study import StudyOptions
-from tests.cli.running import run
+from tests.cli.running import check_one_at_a_time, run, table
 from tests.learn.made_experiments import BAR, DOT, scenario_text
 
 
@@ -21,28 +19,12 @@ def config(*names: str) -> StudyConfig:
     return config_of("ablation", [arm for arm in shipped if arm.name in names], trials=2, seed=0, jobs=1)
 
 
-@pytest.mark.parametrize(
-    ("words", "says"),
-    [
-        (["--resume", "old", "--trials", "3"], "leave out --trials"),
-        (["--out", "new", "--scenario", "flag"], "[imagination] knows no parts, and flag has some"),
-        (["--out", "new", "--scenario", "line", "--scenario", "line"], "two scenarios are named 'line'"),
-    ],
-)
-def test_an_impossible_option_is_one_line(words: list[str], says: str, capsys: pytest.CaptureFixture[str]) -> None:
-    assert run("study", "ablation", *words) == 2
-    error = capsys.readouterr().err.strip()
-    assert says in error
-    assert "\n" not in error
-
-
 def test_a_stopped_ablation_is_resumed_and_leaves_its_files(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     out = tmp_path / "out"
     names = "tuned as it is", "tuned, γ 0"
     StudyFolder.new(out, config(*names)).begin()
     assert run("study", "ablation", "--resume", out) == 0
-    with (out / "ablation.csv").open(newline="", encoding="utf-8") as file:
-        rows = list(csv.DictReader(file))
+    rows = table(out / "ablation.csv")
     assert [(row["part"], row["scenario"], row["trial"]) for row in rows] == [
         (part, scenario, trial) for part in names for scenario in ("dot", "bar") for trial in "01"
     ]
@@ -51,9 +33,7 @@ def test_a_stopped_ablation_is_resumed_and_leaves_its_files(tmp_path: Path, caps
     assert run("study", "ablation", "--resume", out, "--json") == 0
     assert json.loads(capsys.readouterr().out)["files"]["table"] == str(out / "ablation.md")
     assert {name: (out / name).read_bytes() for name in written} == written
-    with folder_lock(out):
-        assert run("study", "ablation", "--resume", out) == 2
-    assert f"{out}: process " in capsys.readouterr().err
+    check_one_at_a_time(["study", "ablation"], out, capsys)
 
 
 @pytest.mark.slow
@@ -62,7 +42,6 @@ def test_an_ablation_has_a_row_for_each_trial_of_each_part(tmp_path: Path) -> No
     words: list[str | Path] = ["study", "ablation", "--scenario", tmp_path / "dot.toml", "--trials", "2"]
     out = tmp_path / "out"
     assert run(*words, "--episodes", "3", "--out", out) == 0
-    with (out / "ablation.csv").open(newline="", encoding="utf-8") as file:
-        rows = list(csv.DictReader(file))
+    rows = table(out / "ablation.csv")
     expected = arms(StudyOptions(trials=2, scenarios=[DOT]))
     assert [(row["part"], row["trial"]) for row in rows] == [(arm.name, trial) for arm in expected for trial in "01"]

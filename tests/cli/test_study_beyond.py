@@ -1,20 +1,18 @@
 """``mc-nested reproduce --beyond``: its folder, its files, going on, and what it refuses."""
 
-import csv
 import json
 from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
-from mc_nested.learn.runs.folder_lock import folder_lock
 from mc_nested.studies.arm import Arm
 from mc_nested.studies.beyond import STUDY, arms
 from mc_nested.studies.config import config_of
 from mc_nested.studies.folder import StudyFolder
 from mc_nested.studies.run_facts import facts_of
 from mc_nested.studies.study import StudyOptions
-from tests.cli.running import run
+from tests.cli.running import check_one_at_a_time, run, table
 from tests.learn.made_experiments import small_preset
 
 FILES = STUDY.files
@@ -36,8 +34,7 @@ def done(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 def test_a_stopped_study_is_resumed_and_leaves_its_files(done: Path) -> None:
     assert {*FILES.values()} <= {path.name for path in done.iterdir()}
-    with (done / "beyond.csv").open(newline="", encoding="utf-8") as file:
-        rows = list(csv.DictReader(file))
+    rows = table(done / "beyond.csv")
     found = {(row["topic"], row["scenario"], row["agent"]) for row in rows}
     assert found == {
         (arm.labels["topic"], scenario.name, arm.labels["agent"]) for arm in small_arms() for scenario in arm.scenarios
@@ -53,9 +50,7 @@ def test_resuming_a_finished_study_writes_the_same_files(done: Path, capsys: pyt
     assert found["files"]["report"] == str(done / "beyond.md")
     claim = next(each for each in found["claims"] if each["letter"] == "l7")
     assert (claim["verdict"], claim["trials"]) == ("holds", None)
-    with folder_lock(done):
-        assert run("reproduce", "--resume", done) == 2
-    assert f"{done}: process " in capsys.readouterr().err
+    check_one_at_a_time(["reproduce"], done, capsys)
 
 
 def test_runs_lists_the_study(done: Path) -> None:
@@ -86,15 +81,6 @@ def test_options_that_the_study_sets_itself_are_refused(
     message = capsys.readouterr().err
     assert message.strip().endswith(f"leave out {option}")
     assert message.count("\n") == 1
-    assert not out.exists()
-
-
-def test_a_device_that_is_not_there_is_refused_before_anything_is_written(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    out = tmp_path / "new"
-    assert run("reproduce", "--beyond", "--device", "mps", "--out", out) == 2
-    assert capsys.readouterr().err.count("\n") == 1
     assert not out.exists()
 
 

@@ -1,20 +1,18 @@
 """``mc-nested reproduce --robustness``: its folder, its files, going on, and what it refuses."""
 
-import csv
 import json
 from pathlib import Path
 
 import pytest
 
 from mc_nested.learn.agents import AGENT_SPECS
-from mc_nested.learn.runs.folder_lock import folder_lock
 from mc_nested.studies.change import Change
 from mc_nested.studies.config import StudyConfig, config_of
 from mc_nested.studies.folder import StudyFolder
 from mc_nested.studies.robustness import STUDY, open_choices
 from mc_nested.studies.study import StudyOptions
-from tests.cli.running import run
-from tests.learn.made_experiments import BAR, DOT, scenario_text, small_preset, small_preset_text
+from tests.cli.running import check_one_at_a_time, run, table, write_study
+from tests.learn.made_experiments import BAR, DOT, small_preset
 
 FILES = STUDY.files
 GAMMA = Change(choice="γ", value="0.5", preset={"update": {"gamma": 0.5}})
@@ -42,8 +40,7 @@ def done(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 def test_a_stopped_study_is_resumed_and_leaves_its_files(done: Path) -> None:
     assert {*FILES.values()} <= {path.name for path in done.iterdir()}
-    with (done / "robustness.csv").open(newline="", encoding="utf-8") as file:
-        rows = list(csv.DictReader(file))
+    rows = table(done / "robustness.csv")
     assert list(dict.fromkeys((row["choice"], row["value"]) for row in rows)) == [
         ("", ""),
         ("γ", "0.5"),
@@ -62,43 +59,13 @@ def test_resuming_a_finished_study_writes_the_same_files(done: Path, capsys: pyt
     claim = next(each for each in found["claims"] if each["letter"] == "e1")
     assert claim["verdict"] == "holds"
     assert claim["choices"] == {"γ: 0.5": "holds", "start: beside": "holds"}
-    with folder_lock(done):
-        assert run("reproduce", "--resume", done) == 2
-    assert f"{done}: process " in capsys.readouterr().err
-
-
-@pytest.mark.parametrize(
-    ("words", "says"),
-    [
-        (["--agent", "nested"], "--robustness takes fewer options than reproduce: leave out --agent"),
-        (["--longer", "10"], "--robustness takes fewer options than reproduce: leave out --longer"),
-        (["--preset", "tuned"], "is not for the single agent"),
-        (["--scenario", "line", "--scenario", "line"], "two scenarios are named 'line'"),
-        (["--resume", "OLD"], "leave out --robustness"),
-    ],
-)
-def test_an_impossible_option_is_one_line(words: list[str], says: str, capsys: pytest.CaptureFixture[str]) -> None:
-    assert run("reproduce", "--robustness", *words) == 2
-    error = capsys.readouterr().err.strip()
-    assert says in error
-    assert "\n" not in error
+    check_one_at_a_time(["reproduce"], done, capsys)
 
 
 @pytest.mark.slow
 def test_the_command_trains_every_choice_for_every_agent(tmp_path: Path) -> None:
-    (tmp_path / "dot.toml").write_text(scenario_text(DOT), "utf-8")
-    (tmp_path / "small.toml").write_text(small_preset_text(), "utf-8")
-    words: list[str | Path] = [
-        "--scenario",
-        tmp_path / "dot.toml",
-        "--preset",
-        tmp_path / "small.toml",
-        "--trials",
-        "2",
-    ]
     out = tmp_path / "out"
-    assert run("reproduce", "--robustness", *words, "--episodes", "10", "--out", out) == 0
+    assert run("reproduce", "--robustness", *write_study(tmp_path, DOT), "--episodes", "10", "--out", out) == 0
     expected = open_choices(small_preset(10), [DOT])
-    with (out / "robustness.csv").open(newline="", encoding="utf-8") as file:
-        found = {(row["choice"], row["value"]) for row in csv.DictReader(file)}
+    found = {(row["choice"], row["value"]) for row in table(out / "robustness.csv")}
     assert found == {(choice.choice, choice.value) for choice in expected}

@@ -1,41 +1,21 @@
 """``mc-nested study sweep``, tiny."""
 
-import csv
 import json
 from pathlib import Path
 
 import pytest
 
-from mc_nested.cli.app import main
 from mc_nested.cli.output import json_fields
 from mc_nested.cli.study import command_of, declared
-from mc_nested.learn.runs.folder_lock import folder_lock
-from tests.learn.made_experiments import DOT, scenario_text, small_preset_text
-
-
-def run(*arguments: str | Path) -> int:
-    with pytest.raises(SystemExit) as caught:
-        main([str(argument) for argument in arguments])
-    code = caught.value.code
-    return code if isinstance(code, int) else 0
+from tests.cli.running import check_one_at_a_time, run, table, write_study
+from tests.learn.made_experiments import DOT
 
 
 @pytest.mark.slow
 def test_a_sweep_leaves_a_row_for_each_trial_a_table_and_a_plot(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    (tmp_path / "dot.toml").write_text(scenario_text(DOT), "utf-8")
-    (tmp_path / "small.toml").write_text(small_preset_text(), "utf-8")
-    words: list[str | Path] = [
-        "study",
-        "sweep",
-        "--scenario",
-        tmp_path / "dot.toml",
-        "--preset",
-        tmp_path / "small.toml",
-        "--trials",
-        "2",
-    ]
+    words = ["study", "sweep", *write_study(tmp_path, DOT)]
     found = []
     for jobs in ("1", "2"):
         out = tmp_path / jobs
@@ -50,11 +30,8 @@ def test_a_sweep_leaves_a_row_for_each_trial_a_table_and_a_plot(
     files = {"table": str(out / "sweep.md"), "plot": str(out / "sweep.png"), "rows": str(out / "sweep.csv")}
     assert set(json_fields(command_of(declared("sweep")))) == {"folder", "files"}
     assert json.loads(capsys.readouterr().out) == {"folder": str(out), "files": files}
-    with folder_lock(out):
-        assert run("study", "sweep", "--resume", out) == 2
-    assert f"{out}: process " in capsys.readouterr().err
-    with (out / "sweep.csv").open(newline="", encoding="utf-8") as file:
-        rows = list(csv.DictReader(file))
+    check_one_at_a_time(["study", "sweep"], out, capsys)
+    rows = table(out / "sweep.csv")
     base = [row for row in rows if (row["agent"], row["choice"]) == ("nested", "")]
     assert [(row["scenario"], row["trial"]) for row in base] == [("dot", "0"), ("dot", "1")]
     assert len(rows) % 2 == 0

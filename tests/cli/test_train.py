@@ -16,13 +16,13 @@ import pytest
 
 from mc_nested.errors import DesktopError, LiveError, McNestedError
 from mc_nested.learn.runs.checkpoint import FILE
-from mc_nested.learn.runs.folder_lock import folder_lock
 from mc_nested.learn.runs.run_folder import RunFolder
 from mc_nested.learn.trainer import Trainer
 from sim.grid import GridVectorEnv
 from tests.cli.fragile_game import open_live
 from tests.cli.made_imagination import SMALL, write_preset, write_scenario
-from tests.cli.running import TRAIN, check_mistake, run, table
+from tests.cli.running import TRAIN, check_one_at_a_time, run, table
+from tests.full_disk import full_disk
 
 
 def test_a_training_leaves_everything_behind(trained: Path) -> None:
@@ -167,9 +167,6 @@ def test_networks_that_do_not_fit_are_one_line(
 def test_a_training_begun_from_another_that_can_not_be_saved_is_not_begun(
     optimal: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    def full_disk(_: int) -> None:
-        raise OSError(28, "No space left on device")
-
     words = ("train", "--preset", "model-based", "--episodes", "6", "--from", optimal, "--out", tmp_path / "new")
     with monkeypatch.context() as patch:
         patch.setattr("os.fsync", full_disk)
@@ -177,14 +174,6 @@ def test_a_training_begun_from_another_that_can_not_be_saved_is_not_begun(
     assert "make room and begin again" in capsys.readouterr().err
     assert run(*words) == 0
     assert json.loads((tmp_path / "new" / "summary.json").read_text())["episodes_to_optimum"] == [0]
-
-
-def test_excursions_of_a_single_agent_are_refused_in_one_line(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    assert run("train", "--preset", "tuned", "--agent", "single", "--out", tmp_path / "new") == 2
-    assert "take nested or hierarchical" in capsys.readouterr().err
-    assert not (tmp_path / "new").exists()
 
 
 def test_the_same_seed_gives_the_same_files(trained: Path, tmp_path: Path) -> None:
@@ -239,10 +228,7 @@ def test_a_run_is_resumed_by_one_process_at_a_time(
     trained: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     shutil.copytree(trained, tmp_path / "run")
-    with folder_lock(tmp_path / "run"):
-        assert run("train", "--resume", tmp_path / "run") == 2
-    says = f"mc-nested: {tmp_path / 'run'}: process {os.getpid()} is writing there: wait until it ends, or stop it\n"
-    assert capsys.readouterr().err == says
+    check_one_at_a_time(["train"], tmp_path / "run", capsys)
     assert run("train", "--resume", tmp_path / "run") == 0
 
 
@@ -302,11 +288,7 @@ def test_a_disk_that_fills_up_costs_one_line_and_not_the_last_checkpoint(
 ) -> None:
     out = tmp_path / "run"
     shutil.copytree(trained, out)
-
-    def full(*_: object, **__: object) -> None:
-        raise OSError(28, "No space left on device")
-
-    monkeypatch.setattr("mc_nested.cli.training_end.draw_curve", full)
+    monkeypatch.setattr("mc_nested.cli.training_end.draw_curve", full_disk)
     assert run("train", "--resume", out) == 2
     said = capsys.readouterr().err
     assert "No space left on device" in said
@@ -378,34 +360,3 @@ def test_a_training_bears_an_episode_that_a_mishap_spoils(tmp_path: Path, monkey
     assert run("train", *live, "--out", tmp_path / "run") == 0
     rows = (tmp_path / "run" / "episodes.csv").read_text(encoding="utf-8").splitlines()
     assert [row.split(",")[1] for row in rows[1:]] == ["1", "2", "3"]
-
-
-@pytest.mark.parametrize(
-    ("arguments", "says"),
-    [
-        (["train", "--out", "NEW", "--scenario", "pyramid"], "no scenario 'pyramid'"),
-        (
-            ["train", "--out", "NEW", "--agent", "double"],
-            "no agent 'double': choose one of nested, hierarchical, single",
-        ),
-        (["train", "--out", "NEW", "--preset", "fast"], "no preset 'fast'"),
-        (["train", "--out", "NEW", "--trials", "0"], "'--trials'"),
-        (["train", "--out", "NEW", "--episodes", "0"], "'--episodes'"),
-        (["train", "--out", "NEW", "--episodes", "1" + "0" * 30], "'--episodes'"),
-        (["train", "--out", "NEW", "--trials", "1" + "0" * 9], "'--trials'"),
-        (["train", "--out", "NEW", "--scenario", ""], "no scenario ''"),
-        (["train", "--out", "NEW" + "x" * 300], "File name too long"),
-        (["train", "--out", "NEW", "--seed", "-1"], "'--seed'"),
-        (["train", "--out", "NEW", "--backend", "cloud"], "'--backend'"),
-        (["train", "--out", "NEW", "--backend", "live", "--trials", "2"], "one trial at a time"),
-        (["train", "--out", "NEW", "--backend", "live", "--profile", "NEW.toml"], "no profile"),
-        (["train", "--out", "TRAINED"], "is not empty: name a new folder, nothing was overwritten"),
-        (["train", "--resume", "TRAINED", "--seed", "0"], "leave out --seed"),
-        (["train", "--resume", "NEW"], "no config.toml there"),
-        (["train", "--frobnicate"], "No such option"),
-    ],
-)
-def test_a_mistake_is_one_line_and_exit_code_2(
-    arguments: list[str], says: str, trained: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    check_mistake(arguments, says, trained, tmp_path, capsys)

@@ -12,16 +12,6 @@ from tests.cli.running import run
 @pytest.mark.parametrize("design", ["islands", "house", "square"])
 def test_every_block_of_a_large_design_is_built(design: str, tmp_path: Path) -> None:
     # Of the first seeds, 2 comes to the square soonest: eight episodes, of which each takes eight seconds.
-    words: list[str | Path] = [
-        "train",
-        "--preset",
-        "model-based",
-        "--scenario",
-        design,
-        "--episodes",
-        "50",
-        "--seed",
-        "2",
-    ]
+    words = ["train", "--preset", "model-based", "--scenario", design, "--episodes", "50", "--seed", "2"]
     assert run(*words, "--stop-at-optimum", "--out", tmp_path / "run") == 0
     assert json.loads((tmp_path / "run" / "summary.json").read_text("utf-8"))["episodes_to_optimum"] != [None]

@@ -10,22 +10,14 @@ from mc_nested.arena.scenario_file import load_scenario, table_of
 from mc_nested.cli.training_end import next_steps
 from mc_nested.learn.preset import load_preset
 from mc_nested.learn.runs.run_config import RunConfig
+from tests.learn.made_experiments import run_config
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="Windows quotes words otherwise")
 
 
 def config(**changes: Any) -> RunConfig:
-    made = {
-        "agent": "nested",
-        "backend": "sim",
-        "trials": 1,
-        "seed": 0,
-        "stop_at_optimum": False,
-        "preset_name": "paper",
-        "preset": load_preset("paper"),
-        "scenario": table_of(load_scenario("zigzag")),
-    }
-    return RunConfig(**{**made, **changes})
+    of_the_paper = {"preset_name": "paper", "preset": load_preset("paper")}
+    return run_config(load_scenario("zigzag"), **{**of_the_paper, **changes})
 
 
 def test_at_the_optimum_the_next_step_is_to_watch_the_agent() -> None:

@@ -3,17 +3,17 @@
 import numpy as np
 import pytest
 
-from mc_nested.arena.scenario_file import load_scenario, table_of
+from mc_nested.arena.scenario_file import load_scenario
 from mc_nested.cli.training_view import ScoreCurve, TrainingView
 from mc_nested.learn.agents import AGENT_SPECS, Agent
 from mc_nested.learn.episode_log import EpisodeRow
 from mc_nested.learn.preset import load_preset
-from mc_nested.learn.runs.run_config import RunConfig
 from mc_nested.learn.trainer import Trainer
 from mc_nested.report.game_time import expected
 from mc_nested.view.board import Board
 from mc_nested.view.status import MOST_SCORES, Learning
 from sim.grid import GridVectorEnv
+from tests.learn.made_experiments import run_config
 
 LINE = load_scenario("line")
 
@@ -52,18 +52,7 @@ def a_training(preset_name: str, trials: int, backend: str = "sim") -> tuple[Tra
     env = GridVectorEnv(scenarios)
     agent = Agent(AGENT_SPECS["nested"], scenarios, preset, 0)
     trainer = Trainer(agent.view_of(env, scenarios), scenarios, agent, preset, 0)
-    config = RunConfig.model_validate(
-        {
-            "agent": "nested",
-            "backend": backend,
-            "trials": trials,
-            "seed": 0,
-            "stop_at_optimum": False,
-            "preset_name": preset_name,
-            "preset": preset,
-            "scenario": table_of(LINE),
-        }
-    )
+    config = run_config(LINE, backend=backend, trials=trials, preset_name=preset_name, preset=preset)
     board = Board("train", "a title")
     return trainer, TrainingView(board, trainer, LINE, env, config), board
 

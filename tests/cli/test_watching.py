@@ -20,7 +20,7 @@ from mc_nested.report.arena_picture import CAPTION, MARGIN, SMALL_ARENA_PX
 from sim.client.client import VirtualClient
 from sim.grid import GridGame
 from tests.cli.fragile_game import open_live
-from tests.cli.running import check_mistake, run
+from tests.cli.running import run
 from tests.live.virtual_session import opening_on, profile_in
 from tests.report.films import pictures_of
 
@@ -43,20 +43,6 @@ def test_build_films_what_it_builds(tmp_path: Path, capsys: pytest.CaptureFixtur
     assert run("build", "zigzag", "--video", film) == 0
     assert f"film: {film}" in capsys.readouterr().out
     assert len(pictures_of(film)) == 26
-
-
-@pytest.mark.parametrize(
-    ("arguments", "says"),
-    [
-        (["play", "TRAINED", "--video", "NEW.avi"], "a film is a file .mp4 or .gif"),
-        (["build", "line", "--video", "NEW.avi"], "a film is a file .mp4 or .gif"),
-        (["play", "TRAINED", "--video", "NEW/film.gif"], "is no folder: name a film in a folder that exists"),
-    ],
-)
-def test_a_film_that_can_not_be_is_refused_before_the_game_is_played(
-    arguments: list[str], says: str, trained: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    check_mistake(arguments, says, trained, tmp_path, capsys)
 
 
 def played(optimal: Path, film: Path) -> int:

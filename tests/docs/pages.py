@@ -43,9 +43,9 @@ def pages() -> list[str]:
     return ["README.md", *sorted(path.relative_to(ROOT).as_posix() for path in (ROOT / "docs").rglob("*.md"))]
 
 
-def steps_of(page: str, text: str | None = None) -> list[Step]:
-    """Return a page's steps, in its order; ``text`` in place of what the file holds."""
-    whole = (ROOT / page).read_text("utf-8") if text is None else text
+def steps_of(page: str) -> list[Step]:
+    """Return a page's steps, in its order."""
+    whole = (ROOT / page).read_text("utf-8")
     steps: list[Step] = []
     behind_commands = -1
     for fence in FENCE.finditer(whole):

@@ -1,11 +1,14 @@
 """Experiments that take a moment: small designs, small networks, few episodes."""
 
+from typing import Any
+
 import tomlkit
 
 from mc_nested.arena.scenario import Material, Scenario
-from mc_nested.arena.scenario_file import draw_grid
+from mc_nested.arena.scenario_file import draw_grid, table_of
 from mc_nested.learn.agents import AGENT_SPECS
 from mc_nested.learn.preset import Preset, load_preset
+from mc_nested.learn.runs.run_config import RunConfig
 from mc_nested.studies.job import Job, Run, cut_into_jobs
 
 MATERIALS = Material("wood", -5.0, "oak_planks"), Material("stone", 10.0, "stone")
@@ -21,8 +24,23 @@ def small_preset(episodes: int = 20) -> Preset:
     return paper.model_copy(update=changes)
 
 
-def small_preset_text(episodes: int = 20) -> str:
-    return tomlkit.dumps(small_preset(episodes).model_dump(exclude_none=True))
+def small_preset_text() -> str:
+    return tomlkit.dumps(small_preset().model_dump(exclude_none=True))
+
+
+def run_config(design: Scenario = DOT, **changes: Any) -> RunConfig:
+    """Return a training of the nested agent on that design, in the simulator."""
+    made = {
+        "agent": "nested",
+        "backend": "sim",
+        "trials": 1,
+        "seed": 0,
+        "stop_at_optimum": False,
+        "preset_name": "small",
+        "preset": small_preset(),
+        "scenario": table_of(design),
+    }
+    return RunConfig(**{**made, **changes})
 
 
 def scenario_text(scenario: Scenario) -> str:

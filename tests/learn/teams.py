@@ -7,19 +7,12 @@ from mc_nested.arena.cooperative.team_env import TeamVectorEnv
 from mc_nested.arena.scenario_file import load_scenario
 from mc_nested.learn.agents import AGENT_SPECS, Agent
 from mc_nested.learn.builders import Builders, Networks
-from mc_nested.learn.preset import Preset, load_preset
+from mc_nested.learn.preset import Preset
 from mc_nested.learn.trainer import Trainer
 from sim.team_grid import TeamGrid
+from tests.learn.made_trainings import PAPER, SHORT
 
 LINE = load_scenario("line")
-PAPER = load_preset("paper")
-SHORT = PAPER.model_copy(
-    update={
-        "episodes": 20,
-        "evaluate_every": 5,
-        "update": PAPER.update.model_copy(update={"batch": 8, "learning_starts": 16, "target_period": 50}),
-    }
-)
 
 
 def agent_of(
@@ -40,9 +33,3 @@ def trainer_of(
     agent, scenarios = agent_of(networks, builders, runs, preset, seed), [LINE] * len(runs)
     arenas = agent.view_of(arenas_of(builders, len(runs)), scenarios)
     return Trainer(arenas, scenarios, agent, preset, seed)
-
-
-def finish(trainer: Trainer) -> Trainer:
-    while not trainer.finished:
-        trainer.tick()
-    return trainer

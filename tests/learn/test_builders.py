@@ -11,7 +11,8 @@ from mc_nested.learn.practice import Practice, Step
 from mc_nested.learn.preset import MainUpdates, Preset, Prioritized, load_preset
 from mc_nested.learn.trainer import Trainer
 from sim.grid import GridVectorEnv
-from tests.learn.teams import LINE, PAPER, SHORT, agent_of, arenas_of, finish, trainer_of
+from tests.learn.made_trainings import PAPER, SHORT, assert_same, finish, saved, ticked
+from tests.learn.teams import LINE, agent_of, arenas_of, trainer_of
 
 SEEN = np.array([[7, 14, 11], [3, 2, 11], [0, 0, 4], [1, 1, 4]])
 BOTH = np.array([0, 1])
@@ -169,15 +170,8 @@ def test_a_run_learns_the_same_alone_and_beside_others(networks: Networks, build
 @pytest.mark.parametrize("networks", NETWORKS)
 def test_a_training_goes_on_from_a_save_to_the_bit(networks: Networks, preset: Preset) -> None:
     whole, first, second = (trainer_of(networks, 2, preset=preset) for _ in range(3))
-    for _ in range(333):
-        first.tick()
-    kept, journal = {name: each.copy() for name, each in first.state().items()}, first.journal(None)
-    second.load(kept, [journal])
-    finish(whole), finish(second)
-    assert whole.episode_rows == second.episode_rows
-    assert whole.evaluation_rows == second.evaluation_rows
-    for name, each in whole.state().items():
-        np.testing.assert_array_equal(each, second.state()[name], err_msg=name)
+    second.load(*saved(ticked(first, 333)))
+    assert_same(finish(second), finish(whole))
 
 
 def test_another_seed_is_another_training() -> None:

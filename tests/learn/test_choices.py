@@ -18,6 +18,7 @@ from mc_nested.learn.trainer import Trainer
 from sim.grid import GridVectorEnv
 from tests.arena.made_parts import STONE, STRIPES, WOOD
 from tests.learn.made_experiments import DOT, small_preset
+from tests.learn.made_trainings import finish
 
 ONE_PART = replace(DOT, parts=(Part(DOT.design, (-5.0, 10.0)),))
 
@@ -28,12 +29,6 @@ def trainer_of(
     preset, spec = preset or small_preset(12), AGENT_SPECS[agent]
     made = Agent(spec, scenarios, preset, seed)
     return Trainer(made.view_of(GridVectorEnv(scenarios), scenarios), scenarios, made, preset, seed)
-
-
-def finished(trainer: Trainer) -> Trainer:
-    while not trainer.finished:
-        trainer.tick()
-    return trainer
 
 
 def main_of(trainer: Trainer) -> Learner:
@@ -104,7 +99,7 @@ def test_the_low_level_agent_of_the_material_goes_on_and_what_it_took_over_from_
 
 
 def test_the_return_of_an_episode_is_that_of_its_choices() -> None:
-    trainer = finished(trainer_of([STRIPES, replace(STRIPES, choose_every=3)], preset=small_preset(30)))
+    trainer = finish(trainer_of([STRIPES, replace(STRIPES, choose_every=3)], preset=small_preset(30)))
     for run in range(2):
         returns, total = [], 0.0
         for *_, reward, _, discount in transitions(main_of(trainer), run):
@@ -121,14 +116,14 @@ def test_an_update_follows_each_choice_or_as_many_as_the_preset_says() -> None:
     preset = small_preset(30)
     several = preset.model_copy(update={"main": MainUpdates(learning_starts=2, updates_an_episode=5)})
     for each, starts, updates in ((preset, preset.update.learning_starts, 1), (several, 2, 5)):
-        main = main_of(finished(trainer_of([STRIPES], preset=each)))
+        main = main_of(finish(trainer_of([STRIPES], preset=each)))
         assert main.replay.added[0] > 30, "some episodes have two choices"
         assert main.engine.updates.tolist() == [(main.replay.added[0] - starts + 1) * updates]
 
 
 @pytest.mark.parametrize("agent", ["nested", "hierarchical"])
 def test_with_one_part_a_training_is_the_same_to_the_bit_as_without(agent: str) -> None:
-    one, none = (finished(trainer_of([scenario] * 2, agent)) for scenario in (ONE_PART, DOT))
+    one, none = (finish(trainer_of([scenario] * 2, agent)) for scenario in (ONE_PART, DOT))
     assert one.episode_rows == none.episode_rows
     assert one.evaluation_rows == none.evaluation_rows
     for name, kept in none.agent.state().items():
@@ -138,8 +133,8 @@ def test_with_one_part_a_training_is_the_same_to_the_bit_as_without(agent: str) 
 @pytest.mark.parametrize("agent", ["nested", "hierarchical", "single"])
 def test_a_run_learns_the_same_alone_in_a_batch_and_resumed(agent: str) -> None:
     scenarios = [replace(STRIPES, choose_every=2), STRIPES]
-    both = finished(trainer_of(scenarios, agent))
-    alone = finished(trainer_of(scenarios[:1], agent))
+    both = finish(trainer_of(scenarios, agent))
+    alone = finish(trainer_of(scenarios[:1], agent))
     assert [row for row in both.episode_rows if row.trial == 0] == alone.episode_rows
     stopped = trainer_of(scenarios, agent)
     while stopped.ticks < 5 or (agent != "single" and not stopped.state()["choices.earned"].any()):
@@ -148,7 +143,7 @@ def test_a_run_learns_the_same_alone_in_a_batch_and_resumed(agent: str) -> None:
     state: Arrays = {name: kept.copy() for name, kept in stopped.state().items()}
     resumed = trainer_of(scenarios, agent)
     resumed.load(state, [stopped.journal(None)])
-    finished(resumed)
+    finish(resumed)
     assert resumed.episode_rows == both.episode_rows
     assert resumed.evaluation_rows == both.evaluation_rows
     for name, kept in both.agent.transitions_since(None).items():
@@ -158,12 +153,12 @@ def test_a_run_learns_the_same_alone_in_a_batch_and_resumed(agent: str) -> None:
 @pytest.mark.parametrize("agent", ["nested", "hierarchical"])
 def test_excursions_and_imitation_go_part_by_part(agent: str) -> None:
     tuned = load_preset("tuned").model_copy(update={"episodes": 250, "hidden": [16, 16]})
-    trainer = finished(trainer_of([STRIPES], agent, tuned))
+    trainer = finish(trainer_of([STRIPES], agent, tuned))
     assert trainer.policy_scores.tolist() == [STRIPES.optimum]
 
 
 def test_the_policy_that_was_evaluated_plays_the_same_choices_afterwards() -> None:
-    trainer = finished(trainer_of([STRIPES], preset=small_preset(40)))
+    trainer = finish(trainer_of([STRIPES], preset=small_preset(40)))
     (episode,) = play_greedily(GridVectorEnv([STRIPES]), [STRIPES], trainer.agent)
     last = trainer.evaluation_rows[-1]
     assert (episode.score, len(episode.actions), episode.material) == (last.score, last.steps, last.material)

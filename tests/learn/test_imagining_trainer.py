@@ -7,21 +7,20 @@ from typing import Any
 import numpy as np
 import pytest
 
-from mc_nested.arena.action import Action
 from mc_nested.arena.env import ArenaEnv
-from mc_nested.arena.game import Outcome, Resumable
 from mc_nested.arena.scenario import Scenario
 from mc_nested.arena.scenario_file import load_scenario
 from mc_nested.arena.vector import ArenaVectorEnv
-from mc_nested.arrays import Arrays, Int64s
+from mc_nested.arrays import Int64s
 from mc_nested.errors import PresetError
 from mc_nested.learn.agents import AGENT_SPECS, Agent, AgentSpec
 from mc_nested.learn.episode_log import EvaluationRow
 from mc_nested.learn.evaluation import play_greedily
 from mc_nested.learn.preset import Preset, load_preset
 from mc_nested.learn.trainer import Trainer
-from sim.grid import GridGame, GridVectorEnv
+from sim.grid import GridVectorEnv
 from tests.learn.imagination.made_games import BENT, SMALL, TWO
+from tests.learn.made_trainings import Slips, StartsOver, assert_same, finish, saved, ticked
 
 NESTED, HIERARCHICAL, SINGLE = AGENT_SPECS["nested"], AGENT_SPECS["hierarchical"], AGENT_SPECS["single"]
 
@@ -36,25 +35,6 @@ def trainer_of(
 ) -> Trainer:
     arenas = GridVectorEnv(scenarios) if env is None else env
     return Trainer(arenas, scenarios, Agent(spec, scenarios, preset, seed), preset, seed, stops)
-
-
-def finish(trainer: Trainer) -> Trainer:
-    while not trainer.finished:
-        trainer.tick()
-    return trainer
-
-
-def saved(trainer: Trainer) -> tuple[Arrays, list[Arrays]]:
-    return {name: kept.copy() for name, kept in trainer.state().items()}, [trainer.journal(None)]
-
-
-def assert_same(one: Trainer, other: Trainer) -> None:
-    """Raise AssertionError unless both trainings came to the same, to the bit."""
-    assert one.episode_rows == other.episode_rows
-    assert one.evaluation_rows == other.evaluation_rows
-    expected = other.state()
-    for name, kept in one.state().items():
-        np.testing.assert_array_equal(kept, expected[name], err_msg=name)
 
 
 @pytest.fixture(scope="module")
@@ -138,34 +118,16 @@ def test_the_same_seed_trains_the_same_and_another_does_not(whole: Trainer) -> N
 
 @pytest.mark.parametrize("ticks", [1, 20, 57, 90])
 def test_a_saved_training_goes_on_to_the_bit(whole: Trainer, ticks: int) -> None:
-    first = trainer_of([BENT] * 2)
-    for _ in range(ticks):
-        first.tick()
+    first = ticked(trainer_of([BENT] * 2), ticks)
     assert not first.finished
     resumed = trainer_of([BENT] * 2)
     resumed.load(*saved(first))
     assert_same(finish(resumed), whole)
 
 
-class StartsOver(GridGame):
-    """A game that can't be saved half-way, like a live one, and that breaks down once."""
-
-    acts_left = 10**9
-
-    @property
-    def resumable(self) -> Resumable | None:
-        return None
-
-    def act(self, action: Action, material: int | None = None) -> Outcome:
-        self.acts_left -= 1
-        if self.acts_left == 0:
-            raise ConnectionError("the game is gone")
-        return super().act(action, material)
-
-
-def live_like(preset: Preset = SMALL) -> tuple[StartsOver, Trainer]:
+def live_like() -> tuple[StartsOver, Trainer]:
     game = StartsOver(BENT)
-    return game, trainer_of([BENT], preset, env=ArenaVectorEnv([ArenaEnv(game, BENT)]))
+    return game, trainer_of([BENT], env=ArenaVectorEnv([ArenaEnv(game, BENT)]))
 
 
 @pytest.mark.parametrize("breaks_in", [1, 3])
@@ -192,11 +154,8 @@ def test_an_episode_that_a_mishap_ends_leaves_no_trace(episodes: int, breaks_in:
 
 
 def test_a_game_that_can_not_be_saved_half_way_goes_on_with_a_new_episode() -> None:
-    _, first = live_like()
-    for _ in range(40):
-        first.tick()
-    _, resumed = live_like()
-    resumed.load(*saved(first))
+    (_, first), (_, resumed) = live_like(), live_like()
+    resumed.load(*saved(ticked(first, 40)))
     assert [row.episode for row in finish(resumed).episode_rows] == list(range(1, SMALL.episodes + 1))
 
 
@@ -227,21 +186,9 @@ def test_a_design_that_changes_in_mid_training_is_found_again() -> None:
     assert min(scores[20:]) < TWO.optimum, "the change was seen"
 
 
-class Slips(GridVectorEnv):
-    """One action in twenty is another."""
-
-    def __init__(self, scenarios: Sequence[Scenario], seed: int) -> None:
-        super().__init__(scenarios)
-        self._random = np.random.default_rng(seed)
-
-    def step(self, actions: Int64s) -> Any:
-        slips = self._random.random(len(actions)) < 0.05
-        return super().step(np.where(slips, self._random.integers(0, 8, len(actions)), actions))
-
-
 @pytest.mark.parametrize("seed", range(2))
 def test_where_actions_slip_the_policy_builds_the_design_where_they_do_not(seed: int) -> None:
-    trainer = finish(trainer_of([BENT], SMALL.model_copy(update={"episodes": 30}), seed, env=Slips([BENT], seed)))
+    trainer = finish(trainer_of([BENT], SMALL.model_copy(update={"episodes": 30}), seed, env=Slips([BENT], 0.05, seed)))
     played = play_greedily(GridVectorEnv([BENT]), [BENT], trainer.agent)
     assert [episode.score for episode in played] == [BENT.optimum]
 
@@ -252,7 +199,7 @@ def test_where_actions_slip_the_policy_builds_the_design_where_they_do_not(seed:
 def test_where_actions_slip_live_learns_to_build_the_papers_designs(design: str, seed: int) -> None:
     # Seed 0 once took a slip for what B does, at the far edge, and never tried it again.
     scenario = load_scenario(design)
-    trainer = trainer_of([scenario], load_preset("model-based"), seed, env=Slips([scenario], seed))
+    trainer = trainer_of([scenario], load_preset("model-based"), seed, env=Slips([scenario], 0.05, seed))
     without_slips = GridVectorEnv([scenario])
     while play_greedily(without_slips, [scenario], trainer.agent)[0].score < scenario.optimum:
         before = len(trainer.episode_rows)

@@ -61,6 +61,15 @@ def test_a_mistake_is_one_line_that_names_the_key(change: tuple[str, str], says:
     assert says in str(caught.value)
 
 
+def check_refused(text: str, change: tuple[str, str], says: str) -> None:
+    """Raise AssertionError unless that preset, with this change, is refused in one line which says so."""
+    assert change[0] in text
+    with pytest.raises(PresetError) as caught:
+        parse_preset(text.replace(*change, 1), "mine.toml")
+    assert says in str(caught.value)
+    assert "\n" not in str(caught.value)
+
+
 TUNED = (Path(__file__).parents[2] / "mc_nested/learn/presets/tuned.toml").read_text()
 
 
@@ -78,10 +87,7 @@ TUNED = (Path(__file__).parents[2] / "mc_nested/learn/presets/tuned.toml").read_
     ],
 )
 def test_excursions_that_do_not_fit_the_rest_are_one_line(change: tuple[str, str], says: str) -> None:
-    with pytest.raises(PresetError) as caught:
-        parse_preset(TUNED.replace(*change, 1), "mine.toml")
-    assert says in str(caught.value)
-    assert "\n" not in str(caught.value)
+    check_refused(TUNED, change, says)
 
 
 MODEL_BASED = (Path(__file__).parents[2] / "mc_nested/learn/presets/model-based.toml").read_text()
@@ -114,11 +120,7 @@ MODEL_BASED = (Path(__file__).parents[2] / "mc_nested/learn/presets/model-based.
     ],
 )
 def test_what_does_not_fit_practice_in_a_learnt_game_is_one_line(change: tuple[str, str], says: str) -> None:
-    assert change[0] in MODEL_BASED
-    with pytest.raises(PresetError) as caught:
-        parse_preset(MODEL_BASED.replace(*change, 1), "mine.toml")
-    assert says in str(caught.value)
-    assert "\n" not in str(caught.value)
+    check_refused(MODEL_BASED, change, says)
 
 
 @pytest.mark.parametrize("text", [PAPER, TUNED], ids=["paper", "tuned"])
@@ -158,9 +160,6 @@ def test_the_main_agent_may_begin_to_learn_before_the_others() -> None:
     assert load_preset("paper").for_main() == load_preset("paper")
 
 
-MODEL_BASED = (Path(__file__).parents[2] / "mc_nested/learn/presets/model-based.toml").read_text()
-
-
 @pytest.mark.parametrize(
     ("change", "says"),
     [
@@ -174,7 +173,4 @@ MODEL_BASED = (Path(__file__).parents[2] / "mc_nested/learn/presets/model-based.
     ],
 )
 def test_an_imagination_that_does_not_fit_is_one_line(change: tuple[str, str], says: str) -> None:
-    with pytest.raises(PresetError) as caught:
-        parse_preset(MODEL_BASED.replace(*change, 1), "mine.toml")
-    assert says in str(caught.value)
-    assert "\n" not in str(caught.value)
+    check_refused(MODEL_BASED, change, says)

@@ -8,9 +8,7 @@ import numpy as np
 import pytest
 from gymnasium.wrappers.vector import RecordEpisodeStatistics
 
-from mc_nested.arena.action import Action
 from mc_nested.arena.env import ArenaEnv
-from mc_nested.arena.game import Outcome, Resumable
 from mc_nested.arena.scenario import Scenario
 from mc_nested.arena.scenario_file import load_scenario
 from mc_nested.arena.vector import ArenaVectorEnv
@@ -19,20 +17,13 @@ from mc_nested.learn.agents import AGENT_SPECS, Agent, AgentSpec
 from mc_nested.learn.evaluation import play_greedily
 from mc_nested.learn.exploration.return_then_explore import Excursions
 from mc_nested.learn.learner import Learner
-from mc_nested.learn.preset import ExcursionRule, Imitation, MainUpdates, Preset, Prioritized, load_preset
+from mc_nested.learn.preset import ExcursionRule, Imitation, MainUpdates, Preset, Prioritized
 from mc_nested.learn.trainer import Trainer
-from sim.grid import GridGame, GridVectorEnv, arena_env
+from sim.grid import GridVectorEnv, arena_env
+from tests.learn.made_trainings import SHORT, Slips, StartsOver, assert_same, copied, finish, saved, ticked
 
 LINE, DIAMOND = load_scenario("line"), load_scenario("diamond")
-PAPER = load_preset("paper")
 NESTED, HIERARCHICAL, SINGLE = AGENT_SPECS["nested"], AGENT_SPECS["hierarchical"], AGENT_SPECS["single"]
-SHORT = PAPER.model_copy(
-    update={
-        "episodes": 20,
-        "evaluate_every": 5,
-        "update": PAPER.update.model_copy(update={"batch": 8, "learning_starts": 16, "target_period": 50}),
-    }
-)
 
 
 def trainer_of(
@@ -47,10 +38,9 @@ def trainer_of(
     return Trainer(env, scenarios, agent, preset, seed, stop_at_optimum)
 
 
-def finish(trainer: Trainer) -> Trainer:
-    while not trainer.finished:
-        trainer.tick()
-    return trainer
+def trainer_in(arenas: Any, scenarios: Sequence[Scenario], preset: Preset = SHORT) -> Trainer:
+    """Return a nested agent's training in these arenas."""
+    return Trainer(arenas, scenarios, Agent(NESTED, scenarios, preset, 0), preset, 0)
 
 
 def test_epsilon_falls_with_the_episodes_of_each_run_and_is_the_same_after_loading() -> None:
@@ -91,11 +81,6 @@ def kept_by(learner: Learner, row: int) -> Arrays:
 def added_to(agent: Agent) -> list[list[int]]:
     """Return how many transitions each row of each learner has stored."""
     return [learner.replay.added.tolist() for learner in _learners(agent)]
-
-
-def saved(trainer: Trainer) -> tuple[Arrays, list[Arrays]]:
-    """Return a training as it would be on disk."""
-    return {name: kept.copy() for name, kept in trainer.state().items()}, [trainer.journal(None)]
 
 
 def weights(trainer: Trainer, run: int) -> list[Float32s]:
@@ -191,8 +176,7 @@ def test_truncation_bootstraps_and_termination_does_not(three_runs: Trainer) -> 
 
 def test_the_same_seed_trains_the_same_and_another_does_not(three_runs: Trainer) -> None:
     again, other = finish(trainer_of([LINE] * 3)), finish(trainer_of([LINE] * 3, seed=1))
-    assert again.episode_rows == three_runs.episode_rows
-    assert again.evaluation_rows == three_runs.evaluation_rows
+    assert_same(again, three_runs)
     for run in range(3):
         for one, same in zip(weights(three_runs, run), weights(again, run), strict=True):
             assert np.array_equal(one, same)
@@ -213,55 +197,34 @@ def test_a_run_of_a_batch_is_the_same_run_trained_alone(three_runs: Trainer) -> 
 
 @pytest.mark.parametrize("ticks", [1, 200, 450])
 def test_a_saved_training_goes_on_to_the_bit(three_runs: Trainer, ticks: int) -> None:
-    first = trainer_of([LINE] * 3)
-    for _ in range(ticks):
-        first.tick()
     resumed = trainer_of([LINE] * 3)
-    resumed.load(*saved(first))
-    finish(resumed)
-    assert resumed.episode_rows == three_runs.episode_rows
-    assert resumed.evaluation_rows == three_runs.evaluation_rows
+    resumed.load(*saved(ticked(trainer_of([LINE] * 3), ticks)))
+    assert_same(finish(resumed), three_runs)
     assert (resumed.ticks, resumed.env_steps) == (three_runs.ticks, three_runs.env_steps)
-    for name, kept in three_runs.state().items():
-        assert np.array_equal(resumed.state()[name], kept), name
 
 
 def test_a_game_that_can_not_be_saved_half_way_goes_on_with_a_new_episode() -> None:
-    def games() -> ArenaVectorEnv:
-        return ArenaVectorEnv([ArenaEnv(StartsOver(LINE), LINE)])
-
-    agent = Agent(NESTED, [LINE], SHORT, 0)
-    first = Trainer(games(), [LINE], agent, SHORT, 0)
-    for _ in range(100):
-        first.tick()
-    resumed = Trainer(games(), [LINE], Agent(NESTED, [LINE], SHORT, 0), SHORT, 0)
-    resumed.load(*saved(first))
+    first, resumed = (trainer_in(ArenaVectorEnv([ArenaEnv(StartsOver(LINE), LINE)]), [LINE]) for _ in range(2))
+    resumed.load(*saved(ticked(first, 100)))
     done = int(resumed.episodes_done[0])
     assert 0 < done < 20
     assert [row.episode for row in finish(resumed).episode_rows] == list(range(1, 21))
 
 
 def test_single_games_and_arrays_train_the_same(three_runs: Trainer) -> None:
-    games = ArenaVectorEnv([arena_env(LINE) for _ in range(3)])
-    trainer = Trainer(games, [LINE] * 3, Agent(NESTED, [LINE] * 3, SHORT, 0), SHORT, 0)
+    trainer = trainer_in(ArenaVectorEnv([arena_env(LINE) for _ in range(3)]), [LINE] * 3)
     assert finish(trainer).episode_rows == three_runs.episode_rows
 
 
 def test_single_games_are_resumed_half_way_as_arrays_are(three_runs: Trainer) -> None:
-    def games() -> ArenaVectorEnv:
-        return ArenaVectorEnv([arena_env(LINE) for _ in range(3)])
-
-    first = Trainer(games(), [LINE] * 3, Agent(NESTED, [LINE] * 3, SHORT, 0), SHORT, 0)
-    for _ in range(130):
-        first.tick()
-    resumed = Trainer(games(), [LINE] * 3, Agent(NESTED, [LINE] * 3, SHORT, 0), SHORT, 0)
-    resumed.load(*saved(first))
+    envs = [ArenaVectorEnv([arena_env(LINE) for _ in range(3)]) for _ in range(2)]
+    first, resumed = (trainer_in(games, [LINE] * 3) for games in envs)
+    resumed.load(*saved(ticked(first, 130)))
     assert finish(resumed).episode_rows == three_runs.episode_rows
 
 
 def test_a_gymnasium_wrapper_trains_the_same(three_runs: Trainer) -> None:
-    env = RecordEpisodeStatistics(GridVectorEnv([LINE] * 3))
-    trainer = Trainer(env, [LINE] * 3, Agent(NESTED, [LINE] * 3, SHORT, 0), SHORT, 0)
+    trainer = trainer_in(RecordEpisodeStatistics(GridVectorEnv([LINE] * 3)), [LINE] * 3)
     assert finish(trainer).episode_rows == three_runs.episode_rows
 
 
@@ -329,20 +292,8 @@ def test_excursions_find_more_than_chance_does(exploring: Trainer) -> None:
         assert best[0] > best[1]
 
 
-class Slips(GridVectorEnv):
-    """One action in ten is another."""
-
-    def __init__(self, scenarios: Sequence[Scenario]) -> None:
-        super().__init__(scenarios)
-        self._random = np.random.default_rng(3)
-
-    def step(self, actions: Int64s) -> Any:
-        slips = self._random.random(len(actions)) < 0.1
-        return super().step(np.where(slips, self._random.integers(0, 8, len(actions)), actions))
-
-
 def test_where_actions_slip_the_best_episode_is_followed_only_from_its_own_states() -> None:
-    trainer = Trainer(Slips([LINE]), [LINE], Agent(NESTED, [LINE], SCOUTING, 0), SCOUTING, 0)
+    trainer = trainer_in(Slips([LINE], 0.1, seed=3), [LINE], SCOUTING)
     excursions = trainer.practice
     assert isinstance(excursions, Excursions)
     one = excursions._explorers[0]
@@ -393,15 +344,9 @@ def test_there_are_as_many_updates_a_step_as_the_preset_says(exploring: Trainer)
 @pytest.mark.parametrize("spec", [NESTED, HIERARCHICAL], ids=["nested", "hierarchical"])
 def test_excursions_can_be_saved_resumed_and_taken_out_of_a_batch(spec: AgentSpec) -> None:
     preset = SCOUTING.model_copy(update={"episodes": 15})
-    whole, first = finish(trainer_of([LINE] * 2, preset, spec=spec)), trainer_of([LINE] * 2, preset, spec=spec)
-    for _ in range(333):
-        first.tick()
-    resumed = trainer_of([LINE] * 2, preset, spec=spec)
-    resumed.load(*saved(first))
-    finish(resumed)
-    assert resumed.episode_rows == whole.episode_rows
-    for name, kept in whole.state().items():
-        assert np.array_equal(resumed.state()[name], kept), name
+    whole, first, resumed = (trainer_of([LINE] * 2, preset, spec=spec) for _ in range(3))
+    resumed.load(*saved(ticked(first, 333)))
+    assert_same(finish(resumed), finish(whole))
     agent = Agent(spec, [LINE], preset, 0, runs=[1])
     alone = finish(Trainer(GridVectorEnv([LINE]), [LINE], agent, preset, 0))
     assert [row[1:] for row in alone.episode_rows] == [row[1:] for row in whole.episode_rows if row.trial == 1]
@@ -409,20 +354,10 @@ def test_excursions_can_be_saved_resumed_and_taken_out_of_a_batch(spec: AgentSpe
 
 def test_prioritized_replay_trains_and_resumes_to_the_bit_too() -> None:
     preset = SHORT.model_copy(update={"prioritized": Prioritized(alpha=0.6, beta=0.5)})
-    whole, first, uniform = (
-        finish(trainer_of([LINE] * 2, preset)),
-        trainer_of([LINE] * 2, preset),
-        trainer_of([LINE] * 2),
-    )
-    for _ in range(400):
-        first.tick()
-    resumed = trainer_of([LINE] * 2, preset)
-    resumed.load(*saved(first))
-    finish(resumed)
-    assert resumed.episode_rows == whole.episode_rows
-    for name, kept in whole.state().items():
-        assert np.array_equal(resumed.state()[name], kept), name
-    assert finish(uniform).episode_rows != whole.episode_rows
+    whole, first, resumed = (trainer_of([LINE] * 2, preset) for _ in range(3))
+    resumed.load(*saved(ticked(first, 400)))
+    assert_same(finish(resumed), finish(whole))
+    assert finish(trainer_of([LINE] * 2)).episode_rows != whole.episode_rows
 
 
 class Fails(GridVectorEnv):
@@ -438,31 +373,11 @@ class Fails(GridVectorEnv):
 
 
 def test_after_an_error_of_the_env_training_goes_on_with_a_new_episode() -> None:
-    trainer = Trainer(Fails([LINE]), [LINE], Agent(NESTED, [LINE], SHORT, 0), SHORT, 0)
+    trainer = trainer_in(Fails([LINE]), [LINE])
     with pytest.raises(ConnectionError):
         finish(trainer)
     trainer.abandon_episodes()
     assert [row.episode for row in finish(trainer).episode_rows] == list(range(1, 21))
-
-
-class StartsOver(GridGame):
-    """A game that can't be saved half-way."""
-
-    @property
-    def resumable(self) -> Resumable | None:
-        return None
-
-
-class Spoils(StartsOver):
-    """Breaks down once."""
-
-    acts_left = 50
-
-    def act(self, action: Action, material: int | None = None) -> Outcome:
-        self.acts_left -= 1
-        if self.acts_left == 0:
-            raise ConnectionError("the game is gone")
-        return super().act(action, material)
 
 
 FEW_EXCURSIONS = SCOUTING.model_copy(update={"episodes": 20})
@@ -473,8 +388,10 @@ FEW_EXCURSIONS = SCOUTING.model_copy(update={"episodes": 20})
     [(NESTED, SHORT), (HIERARCHICAL, SHORT), (SINGLE, SHORT), (NESTED, FEW_EXCURSIONS), (HIERARCHICAL, FEW_EXCURSIONS)],
 )
 def test_an_abandoned_episode_is_never_learnt_from(spec: AgentSpec, preset: Preset) -> None:
+    game = StartsOver(LINE)
+    game.acts_left = 50
     agent = Agent(spec, [LINE], preset, 0)
-    trainer = Trainer(agent.view_of(ArenaVectorEnv([ArenaEnv(Spoils(LINE), LINE)]), [LINE]), [LINE], agent, preset, 0)
+    trainer = Trainer(agent.view_of(ArenaVectorEnv([ArenaEnv(game, LINE)]), [LINE]), [LINE], agent, preset, 0)
     known: list[tuple[Arrays, list[list[int]]]] = []
     ended = 0
     with suppress(ConnectionError):
@@ -482,7 +399,7 @@ def test_an_abandoned_episode_is_never_learnt_from(spec: AgentSpec, preset: Pres
             trainer.tick()
             if len(trainer.episode_rows) + len(trainer.evaluation_rows) > ended:
                 ended = len(trainer.episode_rows) + len(trainer.evaluation_rows)
-                known.append(({name: kept.copy() for name, kept in agent.state().items()}, added_to(agent)))
+                known.append((copied(agent.state()), added_to(agent)))
     assert trainer.ticks < 100, "the fiftieth action broke down"
     trainer.abandon_episodes()
     before, added = known[-1]
@@ -499,13 +416,9 @@ def test_a_training_resumed_after_a_mishap_holds_the_transitions_of_the_one_that
 ) -> None:
     preset = FEW_EXCURSIONS.model_copy(update={"replay_capacity": capacity})
 
-    def training() -> tuple[Spoils, Trainer]:
-        game = Spoils(LINE)
-        game.acts_left = 10_000
-        agent = Agent(NESTED, [LINE], preset, 0)
-        return game, Trainer(ArenaVectorEnv([ArenaEnv(game, LINE)]), [LINE], agent, preset, 0)
-
-    game, trainer = training()
+    game = StartsOver(LINE)
+    games = game, StartsOver(LINE)
+    trainer, resumed = (trainer_in(ArenaVectorEnv([ArenaEnv(each, LINE)]), [LINE], preset) for each in games)
     while not (len(trainer.episode_rows) == 3 and trainer.state()["runs.steps_in_episode"][0] == 30):
         trainer.tick()
     journals, marks = [trainer.journal(None)], trainer.marks()  # a save, thirty steps into an episode
@@ -513,11 +426,9 @@ def test_a_training_resumed_after_a_mishap_holds_the_transitions_of_the_one_that
     with pytest.raises(ConnectionError):
         finish(trainer)
     trainer.abandon_episodes()
-    for _ in range(ticks_after):
-        trainer.tick()
+    ticked(trainer, ticks_after)
     journals.append(trainer.journal(marks))
-    _, resumed = training()
-    resumed.load({name: kept.copy() for name, kept in trainer.state().items()}, journals)
+    resumed.load(copied(trainer.state()), journals)
     for one, other in zip(_learners(trainer.agent), _learners(resumed.agent), strict=True):
         held, brought_back = kept_by(one, 0), kept_by(other, 0)
         for name, kept in held.items():
@@ -568,15 +479,9 @@ def test_the_single_agent_learns_from_its_choice_as_from_any_action() -> None:
 
 @pytest.mark.parametrize("spec", [HIERARCHICAL, SINGLE], ids=["hierarchical", "single"])
 def test_every_agents_training_can_be_repeated_and_resumed(spec: AgentSpec) -> None:
-    whole, first = finish(trainer_of([LINE] * 2, spec=spec)), trainer_of([LINE] * 2, spec=spec)
-    for _ in range(150):
-        first.tick()
-    resumed = trainer_of([LINE] * 2, spec=spec)
-    resumed.load(*saved(first))
-    finish(resumed)
-    assert resumed.episode_rows == whole.episode_rows
-    for name, kept in whole.state().items():
-        assert np.array_equal(resumed.state()[name], kept), name
+    whole, first, resumed = (trainer_of([LINE] * 2, spec=spec) for _ in range(3))
+    resumed.load(*saved(ticked(first, 150)))
+    assert_same(finish(resumed), finish(whole))
     played = play_greedily(whole.agent.view_of(GridVectorEnv([LINE] * 2), [LINE] * 2), [LINE] * 2, whole.agent)
     last = {row.trial: row for row in whole.evaluation_rows}
     assert [(episode.score, episode.material) for episode in played] == [

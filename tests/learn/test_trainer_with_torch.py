@@ -16,6 +16,7 @@ from mc_nested.learn.preset import Preset, load_preset
 from mc_nested.learn.trainer import Trainer
 from sim.grid import GridVectorEnv
 from tests.learn.made_experiments import DOT
+from tests.learn.made_trainings import assert_same, finish, saved, ticked
 
 LINE = load_scenario("line")
 SMALL = replace(DOT, name="small", design=frozenset({(2, 3), (3, 3)}), start=(2, 1), size=5, step_limit=12)
@@ -30,28 +31,16 @@ def trainer_of(agent_name: str, preset: Preset, scenarios: Sequence[Scenario], s
     return Trainer(agent.view_of(GridVectorEnv(scenarios), scenarios), scenarios, agent, preset, seed)
 
 
-def finish(trainer: Trainer) -> Trainer:
-    while not trainer.finished:
-        trainer.tick()
-    return trainer
-
-
 @pytest.mark.parametrize(
     ("agent_name", "preset"),
     [(name, preset) for name in AGENT_SPECS for preset in (IMAGE, PAPER)] + [("nested", TUNED)],
 )
 def test_a_training_can_be_repeated_resumed_and_played(agent_name: str, preset: Preset) -> None:
     scenarios = [SMALL] * 2
-    whole, first = finish(trainer_of(agent_name, preset, scenarios)), trainer_of(agent_name, preset, scenarios)
-    for _ in range(whole.ticks // 2):
-        first.tick()
-    state = {name: kept.copy() for name, kept in first.state().items()}
-    resumed = trainer_of(agent_name, preset, scenarios)
-    resumed.load(state, [first.journal(None)])
-    finish(resumed)
-    assert resumed.episode_rows == whole.episode_rows
-    for name, kept in whole.state().items():
-        np.testing.assert_array_equal(resumed.state()[name], kept, err_msg=name)
+    whole, first, resumed = (trainer_of(agent_name, preset, scenarios) for _ in range(3))
+    finish(whole)
+    resumed.load(*saved(ticked(first, whole.ticks // 2)))
+    assert_same(finish(resumed), whole)
     agent = whole.agent
     assert agent.updates > 0
     played = play_greedily(agent.view_of(GridVectorEnv(scenarios), scenarios), scenarios, agent)
@@ -75,8 +64,7 @@ def test_a_run_alone_plays_its_first_episodes_as_beside_others() -> None:
     # Later they may differ: stacked products add up in another order.
     alone, both = trainer_of("nested", IMAGE, [SMALL]), trainer_of("nested", IMAGE, [SMALL] * 2)
     for trainer in (alone, both):
-        for _ in range(40):
-            trainer.tick()
+        ticked(trainer, 40)
     assert alone.episode_rows == [row for row in both.episode_rows if row.trial == 0]
 
 

@@ -6,9 +6,8 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
-from mc_nested.arena.action import Action, Cell
+from mc_nested.arena.action import Cell
 from mc_nested.arena.env import ArenaEnv
-from mc_nested.arena.game import Outcome, Resumable
 from mc_nested.arena.scenario_file import load_scenario
 from mc_nested.arena.vector import ArenaVectorEnv
 from mc_nested.arrays import Arrays
@@ -18,31 +17,22 @@ from mc_nested.learn.imagination.background_practice import Background, GoesOn
 from mc_nested.learn.preset import load_preset
 from mc_nested.learn.trainer import Trainer
 from sim.grid import GridGame, GridVectorEnv
+from tests.learn.made_trainings import StartsOver, copied, finish
 
 LINE = load_scenario("line")
 LIVE = load_preset("model-based").model_copy(update={"episodes": 5})
 PATIENCE_S = 20.0
 
 
-class Slow(GridGame):
+class Slow(StartsOver):
     """A game that can't be saved half-way. It fails once at an action, and where it is told to at a reset."""
 
-    acts_left = -1
+    error = LiveError("the game is gone")
     at_reset: Callable[[], None] = staticmethod(lambda: None)
-
-    @property
-    def resumable(self) -> Resumable | None:
-        return None
 
     def reset(self, material: int) -> Cell:
         self.at_reset()
         return super().reset(material)
-
-    def act(self, action: Action, material: int | None = None) -> Outcome:
-        self.acts_left -= 1
-        if self.acts_left == 0:
-            raise LiveError("the game is gone")
-        return super().act(action, material)
 
 
 class Rounds:
@@ -82,14 +72,8 @@ def training(background: Background | None = None, game: GridGame | None = None)
     return Trainer(env, [LINE], Agent(AGENT_SPECS["nested"], [LINE], LIVE, 0), LIVE, 0, background=background)
 
 
-def finish(trainer: Trainer) -> Trainer:
-    while not trainer.finished:
-        trainer.tick()
-    return trainer
-
-
 def networks(trainer: Trainer) -> Arrays:
-    return {name: kept.copy() for name, kept in trainer.agent.state().items()}
+    return copied(trainer.agent.state())
 
 
 def are_the_same(one: Arrays, other: Arrays) -> bool:

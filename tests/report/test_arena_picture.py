@@ -20,6 +20,7 @@ from mc_nested.report.arena_picture import (
     box_for,
     draw_moment,
 )
+from tests.report.films import flat
 
 LINE = load_scenario("line")
 STONE = LINE.best_material
@@ -28,10 +29,6 @@ START = Moment(LINE.start, (), 0, STONE, 10.0)
 
 def words_of(picture: Picture) -> Picture:
     return picture[:CAPTION]
-
-
-def flat(width: int, height: int, colour: tuple[int, int, int]) -> Picture:
-    return np.full((height, width, 3), colour, dtype=np.uint8)
 
 
 @pytest.mark.parametrize(
@@ -75,7 +72,7 @@ def test_a_long_name_ends_before_the_edge() -> None:
 
 
 def test_a_window_stands_beside_the_arena_as_high_as_it_is() -> None:
-    picture, window = draw_moment(LINE, START), flat(1280, 720, (9, 99, 199))
+    picture, window = draw_moment(LINE, START), flat((9, 99, 199), 1280, 720)
     box = box_for(window)
     assert box == (round(ARENA_PX * 16 / 9), ARENA_PX)
     both = beside(picture, window, box)
@@ -88,9 +85,9 @@ def test_a_window_stands_beside_the_arena_as_high_as_it_is() -> None:
 
 def test_a_window_of_another_size_is_fitted_into_the_same_box() -> None:
     picture, box = draw_moment(LINE, START), (600, ARENA_PX)
-    shapes = {beside(picture, flat(width, height, (0, 0, 0)), box).shape for width, height in [(900, 576), (100, 576)]}
+    shapes = {beside(picture, flat((0, 0, 0), width, height), box).shape for width, height in [(900, 576), (100, 576)]}
     assert len(shapes) == 1
-    narrow = beside(picture, flat(100, 576, (0, 0, 0)), box)[CAPTION : CAPTION + ARENA_PX, picture.shape[1] : -MARGIN]
+    narrow = beside(picture, flat((0, 0, 0), 100, 576), box)[CAPTION : CAPTION + ARENA_PX, picture.shape[1] : -MARGIN]
     dark = (narrow == 0).all(axis=(0, 2))
     assert dark.sum() == round(100 * ARENA_PX / 576)
     assert (narrow[:, ~dark] == PAPER).all()

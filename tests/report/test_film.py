@@ -11,6 +11,7 @@ import pytest
 from mc_nested.errors import FilmError, LiveError
 from mc_nested.report.film import LAST_S, check_film, open_film
 from mc_nested.report.film_file import INSTALL
+from tests.full_disk import full_disk
 from tests.report.films import BLUE, GREEN, RED, flat, pictures_of, shown
 
 
@@ -147,16 +148,12 @@ def test_without_imageio_ffmpeg_an_mp4_names_the_extra_and_a_gif_needs_nothing(
     check_film(tmp_path / "film.gif")
 
 
-def failing(*_: object, **__: object) -> None:
-    raise OSError(errno.ENOSPC, "No space left on device")
-
-
 @pytest.mark.parametrize(
     ("kind", "fail"),
     [
-        (".gif", lambda patch: patch.setattr("PIL.Image.Image.save", failing)),
-        (".gif", lambda patch: patch.setattr("os.fsync", failing)),
-        (".mp4", lambda patch: patch.setattr("os.fsync", failing)),
+        (".gif", lambda patch: patch.setattr("PIL.Image.Image.save", full_disk)),
+        (".gif", lambda patch: patch.setattr("os.fsync", full_disk)),
+        (".mp4", lambda patch: patch.setattr("os.fsync", full_disk)),
     ],
 )
 def test_a_disk_that_fills_up_is_one_line_and_leaves_the_earlier_film(

@@ -39,14 +39,19 @@ class NotedFilm(Film):
         return [at for _, at in self.shown]
 
 
+def begun() -> tuple[NotedFilm, FilmedGame]:
+    film = NotedFilm()
+    game = FilmedGame(GridGame(LINE), LINE, film)
+    game.reset(STONE)
+    return film, game
+
+
 def test_a_filmed_game_behaves_as_the_game_itself() -> None:
     check_game(FilmedGame(GridGame(LINE), LINE, NotedFilm()), LINE, [*BUMPS, *build(LINE)])
 
 
 def test_the_film_shows_the_start_and_every_step() -> None:
-    film = NotedFilm()
-    game = FilmedGame(GridGame(LINE), LINE, film)
-    game.reset(STONE)
+    film, game = begun()
     for action in (Action.B, Action.BD, Action.LD):
         game.act(action)
     moments = [
@@ -61,18 +66,14 @@ def test_the_film_shows_the_start_and_every_step() -> None:
 
 
 def test_a_build_of_eleven_blocks_takes_about_ten_seconds() -> None:
-    film = NotedFilm()
-    game = FilmedGame(GridGame(LINE), LINE, film)
-    game.reset(STONE)
+    film, game = begun()
     for action in build(LINE):
         game.act(action)
     assert 6.0 < film.times[-1] < 10.0
 
 
 def test_an_episode_that_starts_over_begins_the_film_anew() -> None:
-    film = NotedFilm()
-    game = FilmedGame(GridGame(LINE), LINE, film)
-    game.reset(STONE)
+    film, game = begun()
     game.act(Action.BD)
     game.reset(0)
     ((picture, at),) = film.shown

@@ -8,7 +8,8 @@ from tensorboard.backend.event_processing.event_accumulator import EventAccumula
 from mc_nested.learn.agents import AGENT_SPECS
 from mc_nested.report import tensorboard
 from mc_nested.report.tensorboard import TensorBoard
-from tests.learn.test_trainer import LINE, SHORT, trainer_of
+from tests.learn.made_trainings import SHORT
+from tests.learn.test_trainer import LINE, trainer_of
 
 
 def read(folder: Path) -> EventAccumulator:

@@ -1,6 +1,5 @@
 """What the trials of an ablation come to: measures, table, figure."""
 
-import csv
 import math
 from dataclasses import replace
 from pathlib import Path
@@ -9,6 +8,7 @@ from matplotlib.image import imread
 
 from mc_nested.studies.ablation import COLUMNS, STUDY, measures_on, report
 from mc_nested.studies.study import write_report
+from tests.cli.running import table
 from tests.studies.made_trials import LINE, PAPER, ZIGZAG, made_arm, made_config, made_trial
 
 PLAYED: dict[str, list[int | None]] = {
@@ -100,8 +100,7 @@ def test_the_same_trials_give_the_same_files(tmp_path: Path) -> None:
 
 def test_the_rows_hold_every_trial_and_leave_never_empty(tmp_path: Path) -> None:
     write_report(tmp_path, STUDY, REPORT)
-    with (tmp_path / "ablation.csv").open(newline="", encoding="utf-8") as file:
-        rows = list(csv.DictReader(file))
+    rows = table(tmp_path / "ablation.csv")
     assert tuple(rows[0]) == COLUMNS
     assert len(rows) == 24
     hopeless = [row for row in rows if (row["part"], row["scenario"]) == ("no | hope", "line")]

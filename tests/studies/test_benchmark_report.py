@@ -1,6 +1,5 @@
 """The report of a benchmark: every contestant over all designs and on each kind; whole, and the same for the same."""
 
-import csv
 from pathlib import Path
 
 import cv2
@@ -9,6 +8,7 @@ import pytest
 from mc_nested.arena.design import KINDS
 from mc_nested.studies.benchmark import COLUMNS, STUDY, report
 from mc_nested.studies.study import write_report
+from tests.cli.running import table
 from tests.studies.made_benchmark import contestant, made_benchmark, played
 from tests.studies.made_trials import made_config
 
@@ -74,8 +74,7 @@ def test_a_row_is_a_line_of_the_table_and_never_is_an_empty_cell(tmp_path: Path)
     arm = contestant("model-based", 30, trials=1, designs=2)
     trials = [played(arm, 0, 0, 17), played(arm, 1, 0, None)]
     write_report(tmp_path, STUDY, report(made_config("benchmark", trials), trials))
-    with (tmp_path / "benchmark.csv").open(newline="", encoding="utf-8") as file:
-        first, second = csv.DictReader(file)
+    first, second = table(tmp_path / "benchmark.csv")
     assert tuple(first) == COLUMNS
     cells = trials[0].scenario.size * (trials[0].scenario.size - 1)
     without = round((cells + 1) / (trials[0].scenario.blocks + 1) + 1, 2)

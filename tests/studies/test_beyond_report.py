@@ -1,6 +1,5 @@
 """The report of what the paper didn't try: the same for the same results, and what it says."""
 
-import csv
 from pathlib import Path
 
 import cv2
@@ -10,6 +9,7 @@ from mc_nested.studies.beyond import STUDY, in_words, report_on
 from mc_nested.studies.claims.arm_results import Arms
 from mc_nested.studies.claims.beyond import judge_beyond
 from mc_nested.studies.study import write_report
+from tests.cli.running import table
 from tests.studies.claims.made_arms import whole
 
 
@@ -55,8 +55,7 @@ def test_arms_that_end_at_the_optimum_have_no_last_ten_and_few_trials_are_said(w
 
 def test_every_evaluation_is_a_row(written: Path) -> None:
     arms = whole()
-    with (written / "beyond.csv").open(newline="", encoding="utf-8") as file:
-        rows = list(csv.DictReader(file))
+    rows = table(written / "beyond.csv")
     assert len(rows) == sum(len(trial.scores) for arm in arms.values() for trial in arm.trials)
     assert rows[0] == {
         "topic": "images",

@@ -18,6 +18,7 @@ from mc_nested.studies.job_training import JobTraining, SpendingCount, agents_tr
 from mc_nested.studies.outcome import OUTCOME, JobOutcome, RunOutcome, outcome_of
 from sim.grid import GridVectorEnv
 from sim.team_grid import TeamGrid
+from tests.full_disk import full_disk
 from tests.learn.made_experiments import BAR, DOT, one_job, runs_of, small_preset
 
 
@@ -140,15 +141,11 @@ def test_an_outcome_of_another_job_or_half_of_one_is_refused(tmp_path: Path) -> 
 def test_a_full_disk_costs_one_line_and_not_the_last_save(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     job = one_job("nested", [DOT], 2, episodes=50)
     own = training(job, tmp_path)
-
-    def full(_: int) -> None:
-        raise OSError(28, "No space left on device")
-
     while (own.trainer.episodes_done < 14).all():
         own.tick()
     saved = training(job, tmp_path).episodes_done.tolist()
     with monkeypatch.context() as patch:
-        patch.setattr("os.fsync", full)
+        patch.setattr("os.fsync", full_disk)
         with pytest.raises(RunError, match=r"No space left on device.*: make room"):
             own.save()
     assert training(job, tmp_path).episodes_done.tolist() == saved

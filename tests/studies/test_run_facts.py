@@ -16,8 +16,9 @@ from mc_nested.studies.benchmark import baseline
 from mc_nested.studies.config import config_of
 from mc_nested.studies.folder import StudyFolder
 from mc_nested.studies.outcome import JobOutcome, RunOutcome, write_outcome
-from mc_nested.studies.run_facts import facts_of, runs_in
+from mc_nested.studies.run_facts import RunFacts, facts_of, runs_in
 from tests.learn.made_experiments import BAR, DOT, small_preset
+from tests.learn.made_trainings import finish
 from tests.learn.runs.test_run_folder import begun, trainer_in
 
 
@@ -25,11 +26,14 @@ from tests.learn.runs.test_run_folder import begun, trainer_in
 def trained(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Return a finished training of two trials of ten episodes."""
     folder = begun(tmp_path_factory.mktemp("runs") / "done")
-    trainer = trainer_in(folder)
-    while not trainer.finished:
-        trainer.tick()
-    folder.save(trainer, 1.0)
+    folder.save(finish(trainer_in(folder)), 1.0)
     return folder.path
+
+
+def known(folder: Path) -> RunFacts:
+    facts = facts_of(folder)
+    assert facts is not None
+    return facts
 
 
 def study(path: Path, name: str, arms: list[Arm], finished: bool) -> StudyFolder:
@@ -48,8 +52,7 @@ def test_a_finished_training_has_the_mean_of_its_scores(trained: Path, tmp_path:
     shutil.copytree(trained, tmp_path / "run")
     summary = json.loads((tmp_path / "run" / "summary.json").read_text())
     (tmp_path / "run" / "summary.json").write_text(json.dumps({**summary, "final_scores": [10.0, 11.0]}))
-    facts = facts_of(tmp_path / "run")
-    assert facts is not None
+    facts = known(tmp_path / "run")
     assert (facts.verb, facts.state, facts.why) == ("train", "finished", None)
     assert (facts.designs, facts.agents, facts.presets) == (["dot"], ["nested"], ["small"])
     assert (facts.trials, facts.episodes_done, facts.episodes) == (2, 20, 20)
@@ -61,34 +64,29 @@ def test_its_size_is_that_of_all_files_and_links_are_not_followed(tmp_path: Path
     (tmp_path / "large").write_bytes(bytes(10_000))
     (folder.path / "inside").mkdir()
     (folder.path / "inside" / "file").write_bytes(bytes(500))
-    before = facts_of(folder.path)
+    before = known(folder.path)
     (folder.path / "link").symlink_to(tmp_path / "large")
-    after = facts_of(folder.path)
-    assert before is not None
-    assert after is not None
+    after = known(folder.path)
     assert before.size == (folder.path / "config.toml").stat().st_size + 500
     assert after.size - before.size < 1000
 
 
 def test_a_stopped_training_can_be_resumed(tmp_path: Path) -> None:
     folder = begun(tmp_path / "run")
-    facts = facts_of(folder.path)
-    assert facts is not None
+    facts = known(folder.path)
     assert (facts.state, facts.episodes_done, facts.score) == ("can be resumed", 0, None)
     trainer = trainer_in(folder)
     while trainer.episodes_done.sum() < 6:
         trainer.tick()
     folder.save(trainer, 1.0)
-    facts = facts_of(folder.path)
-    assert facts is not None
+    facts = known(folder.path)
     assert facts.state == "can be resumed"
     assert facts.episodes_done == trainer.episodes_done.sum()
 
 
 def test_a_folder_where_a_process_writes_is_in_use(trained: Path) -> None:
     with folder_lock(trained):
-        facts = facts_of(trained)
-    assert facts is not None
+        facts = known(trained)
     assert facts.state == "in use"
     assert (facts.why or "").startswith("process ")
 
@@ -112,8 +110,7 @@ def test_a_damaged_folder_says_why(trained: Path, tmp_path: Path, file: str, con
     (run / file).unlink()
     if content is not None:
         (run / file).write_text(content)
-    facts = facts_of(run)
-    assert facts is not None
+    facts = known(run)
     assert facts.state == "damaged"
     assert why in (facts.why or "")
     assert "\n" not in (facts.why or "")
@@ -137,20 +134,17 @@ LABELLED = [Arm("images: numbers", small_preset(), [DOT, BAR], 2, labels={"agent
 def test_a_study_counts_the_episodes_of_finished_jobs(
     name: str, verb: str, arms: list[Arm], agents: list[str], presets: list[str], episodes: int, tmp_path: Path
 ) -> None:
-    facts = facts_of(study(tmp_path / "whole", name, arms, finished=True).path)
-    assert facts is not None
+    facts = known(study(tmp_path / "whole", name, arms, finished=True).path)
     assert (facts.verb, facts.state, facts.designs) == (verb, "finished", ["dot", "bar"])
     assert (facts.agents, facts.presets, facts.trials) == (agents, presets, 2)
     assert (facts.episodes_done, facts.episodes) == (episodes, episodes)
     unfinished = study(tmp_path / "part", name, arms, finished=False)
-    part = facts_of(unfinished.path)
-    assert part is not None
+    part = known(unfinished.path)
     assert part.episodes_done == episodes - unfinished.jobs[-1].episodes
     assert part.state == "can be resumed"
     (outcome, *_) = (tmp_path / "whole" / "jobs").glob("*/outcome.json")
     outcome.write_text("{")
-    broken = facts_of(tmp_path / "whole")
-    assert broken is not None
+    broken = known(tmp_path / "whole")
     assert broken.state == "damaged"
     assert "can't be read as the outcome of a training" in (broken.why or "")
 

@@ -16,6 +16,7 @@ from mc_nested.studies.job_training import TrainedJob
 from mc_nested.studies.outcome import OUTCOME, JobOutcome, outcome_of
 from mc_nested.studies.sb3 import Sb3Dqn, Sb3Env, Sb3Training
 from sim.grid import GridVectorEnv
+from tests.full_disk import full_disk
 from tests.learn.made_experiments import BAR, DOT
 from tests.studies.made_model import MadeModel
 
@@ -91,10 +92,7 @@ def test_a_full_disk_is_one_line(tmp_path: Path, monkeypatch: pytest.MonkeyPatch
     while not own.finished:
         own.tick()
 
-    def full(_: int) -> None:
-        raise OSError(28, "No space left on device")
-
-    monkeypatch.setattr("os.fsync", full)
+    monkeypatch.setattr("os.fsync", full_disk)
     with pytest.raises(RunError, match=r"No space left on device.*: make room"):
         own.finish()
 

@@ -1,6 +1,5 @@
 """A study of one's own: all that it takes is one file, here these lines."""
 
-import csv
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -17,6 +16,7 @@ from mc_nested.studies.folder import StudyFolder
 from mc_nested.studies.study import Report, Study, StudyOptions
 from mc_nested.studies.table import markdown
 from mc_nested.studies.trial import Trial, on_each, trial_table
+from tests.cli.running import table
 
 HEADER = ("agent", "scenario", "trial", "best_score", "optimum")
 
@@ -53,8 +53,7 @@ def test_a_study_that_a_user_declares_trains_and_reports(tmp_path: Path) -> None
     text = (tmp_path / "run" / "three.md").read_text("utf-8")
     assert text.startswith("# The line with three materials\n\nSeed 0.\n\n| agent | best score |\n")
     assert (tmp_path / "run" / "three.png").stat().st_size > 1000
-    with (tmp_path / "run" / "three.csv").open(newline="", encoding="utf-8") as file:
-        rows = list(csv.DictReader(file))
+    rows = table(tmp_path / "run" / "three.csv")
     assert [(row["agent"], row["scenario"], row["trial"]) for row in rows] == [
         (agent, "line, 3 materials", "0") for agent in AGENT_SPECS
     ]

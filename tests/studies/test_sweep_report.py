@@ -10,6 +10,7 @@ from mc_nested.studies.inference import Interval
 from mc_nested.studies.study import write_report
 from mc_nested.studies.sweep import STUDY, effects_on, report
 from mc_nested.studies.trial import Trial
+from tests.full_disk import full_disk
 from tests.studies.made_trials import LINE, ZIGZAG, made_arm, made_config, made_trial
 
 
@@ -122,10 +123,7 @@ def test_a_full_disk_leaves_the_old_picture(tmp_path: Path, monkeypatch: pytest.
     write_report(tmp_path, STUDY, REPORT)
     before = (tmp_path / "sweep.png").read_bytes()
 
-    def full(*_: object, **__: object) -> None:
-        raise OSError(28, "No space left on device")
-
-    monkeypatch.setattr("matplotlib.figure.Figure.savefig", full)
+    monkeypatch.setattr("matplotlib.figure.Figure.savefig", full_disk)
     with pytest.raises(OSError, match="No space left"):
         write_report(tmp_path, STUDY, REPORT)
     assert (tmp_path / "sweep.png").read_bytes() == before

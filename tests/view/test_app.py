@@ -219,42 +219,33 @@ def test_ctrl_c_stops_the_run_whose_own_view_it_is(live: Path) -> None:
     assert pressed(live, "ctrl+c", closes_at_end=True)[1].stop
 
 
+def pressing(*keys: str) -> Act:
+    async def press(_app: ViewApp, pilot: Pilot[None]) -> None:
+        await pilot.press(*keys)
+
+    return press
+
+
 def test_p_goes_on_where_another_view_paused(live: Path) -> None:
     (live / FOLDER).mkdir()
     requests = Requests(live)
     ask_pause(live)
 
-    async def press(_app: ViewApp, pilot: Pilot[None]) -> None:
-        await pilot.press("p")
-
-    shown(live, STATUSES["paused"], SIZES["80x24"], press)
+    shown(live, STATUSES["paused"], SIZES["80x24"], pressing("p"))
 
     assert not requests.is_pause_asked()
 
 
-@pytest.mark.parametrize(("key", "answer"), [("y", True), ("n", False)])
-def test_a_question_is_answered(live: Path, key: str, answer: bool) -> None:
+@pytest.mark.parametrize(
+    ("keys", "answer"), [(["y"], True), (["n"], False), (["left", "y"], None)], ids=["yes", "no", "not on the screen"]
+)
+def test_a_question_that_is_on_the_screen_is_answered(live: Path, keys: list[str], answer: bool | None) -> None:
     (live / FOLDER).mkdir()
     requests = Requests(live)
 
-    async def press(_app: ViewApp, pilot: Pilot[None]) -> None:
-        await pilot.press(key)
-
-    shown(live, STATUSES["a question"], SIZES["80x24"], press)
+    shown(live, STATUSES["a question"], SIZES["80x24"], pressing(*keys))
 
     assert requests.answer_to(41) is answer
-
-
-def test_a_question_that_is_not_on_the_screen_is_not_answered(live: Path) -> None:
-    (live / FOLDER).mkdir()
-    requests = Requests(live)
-
-    async def press(_app: ViewApp, pilot: Pilot[None]) -> None:
-        await pilot.press("left", "y")
-
-    shown(live, STATUSES["a question"], SIZES["80x24"], press)
-
-    assert requests.answer_to(41) is None
 
 
 @pytest.mark.parametrize("keys", [["s"], ["p"], ["left", "s"]])

@@ -66,15 +66,20 @@ def test_a_run_is_published_at_once_and_while_it_goes_on(tmp_path: Path) -> None
     assert not is_published(tmp_path)
 
 
-def test_how_a_run_failed_is_published(tmp_path: Path) -> None:
+@pytest.mark.parametrize(
+    ("error", "said"),
+    [("the game\nis gone", "the game is gone"), ("go on with r\udce9", "go on with r?")],
+    ids=["in one line", "a path that is no text, with question marks"],
+)
+def test_how_a_run_failed_is_published(error: str, said: str, tmp_path: Path) -> None:
     def fail() -> None:
         with a_publisher(tmp_path):
-            raise LiveError("the game\nis gone")
+            raise LiveError(error)
 
     with pytest.raises(LiveError):
         fail()
 
-    assert status_now(tmp_path).ended == "the game is gone"
+    assert status_now(tmp_path).ended == said
 
 
 def test_a_run_waits_while_a_person_wants_a_pause(tmp_path: Path) -> None:
@@ -171,17 +176,6 @@ def test_a_status_that_can_not_be_written_costs_the_view_and_not_the_run(tmp_pat
         publisher.board.show(arena=None)
 
     assert status_now(tmp_path).ended == "finished"
-
-
-def test_a_path_that_is_no_text_is_published_with_question_marks(tmp_path: Path) -> None:
-    def fail() -> None:
-        with a_publisher(tmp_path):
-            raise LiveError("go on with r\udce9")
-
-    with pytest.raises(LiveError):
-        fail()
-
-    assert status_now(tmp_path).ended == "go on with r?"
 
 
 def test_a_folder_that_can_not_be_made_costs_the_view_and_not_the_run(tmp_path: Path) -> None:

@@ -110,28 +110,26 @@ def test_a_line_that_a_kill_cut_off_is_left_out(tmp_path: Path) -> None:
     assert [status.at for status in history_of(tmp_path)] == [1.0, 3.0]
 
 
-@pytest.mark.parametrize("text", ["", "{", "[]", '{"what": 3}', '{"what": "train"}', '{"format": 1, "what": "train"}'])
-def test_a_damaged_status_is_refused_in_a_line(tmp_path: Path, text: str) -> None:
+DAMAGED = r"now\.json: can't be read: it is damaged, or of another version"
+LATER = f'{{"format": {FORMAT + 1}, "what": "trains", "title": "line"}}'.encode()
+
+
+@pytest.mark.parametrize(
+    ("content", "says"),
+    [
+        *((text, DAMAGED) for text in (b"", b"{", b"[]", b'{"what": 3}', b'{"what": "train"}')),
+        (b'{"format": 1, "what": "train"}', DAMAGED),
+        (b"\xff\xfe\x00", "can't be read"),
+        (LATER, "another version of mc-nested"),
+    ],
+)
+def test_a_status_that_is_damaged_or_of_another_version_is_refused_in_a_line(
+    tmp_path: Path, content: bytes, says: str
+) -> None:
     (tmp_path / FOLDER).mkdir()
-    (tmp_path / FOLDER / NOW).write_text(text, "utf-8")
+    (tmp_path / FOLDER / NOW).write_bytes(content)
 
-    with pytest.raises(RunError, match=r"now\.json: can't be read: it is damaged, or of another version"):
-        status_now(tmp_path)
-
-
-def test_what_is_no_text_is_refused_in_a_line(tmp_path: Path) -> None:
-    (tmp_path / FOLDER).mkdir()
-    (tmp_path / FOLDER / NOW).write_bytes(b"\xff\xfe\x00")
-
-    with pytest.raises(RunError, match="can't be read"):
-        status_now(tmp_path)
-
-
-def test_status_of_another_version_is_refused_in_a_line(tmp_path: Path) -> None:
-    (tmp_path / FOLDER).mkdir()
-    (tmp_path / FOLDER / NOW).write_text(f'{{"format": {FORMAT + 1}, "what": "trains", "title": "line"}}')
-
-    with pytest.raises(RunError, match="another version of mc-nested"):
+    with pytest.raises(RunError, match=says):
         status_now(tmp_path)
 
 

@@ -51,6 +51,17 @@ def viewed_training(opened: Opens) -> Terminal:
     return terminal
 
 
+def paused_by_another(opened: Opens) -> tuple[Terminal, Terminal]:
+    """Return a long training in a terminal, and a view of it in another one, which has paused it."""
+    training = opened(*LONG)
+    training.until("updates/s")
+    view = opened("view", "run")
+    view.until("zigzag, nested agent", training)
+    view.press("p")
+    view.until("paused; press p to go on", training)
+    return training, view
+
+
 def child_of(process: int) -> int:
     """Return the one child of a process: its view."""
     (child,) = Path(f"/proc/{process}/task/{process}/children").read_text().split()
@@ -163,12 +174,7 @@ def test_an_episode_and_a_build_are_viewed(opened: Opens, tmp_path: Path) -> Non
 
 @pytest.mark.slow
 def test_another_terminal_views_a_run_and_asks_it(opened: Opens) -> None:
-    training = opened(*LONG)
-    training.until("updates/s")
-    view = opened("view", "run")
-    view.until("zigzag, nested agent", training)
-    view.press("p")
-    view.until("paused; press p to go on", training)
+    training, view = paused_by_another(opened)
     view.press("p")
     view.until("trains in the simulator", training)
     view.press("\x03")
@@ -187,12 +193,7 @@ def test_another_terminal_views_a_run_and_asks_it(opened: Opens) -> None:
 
 @pytest.mark.slow
 def test_a_pause_ends_with_the_terminal_of_its_view(opened: Opens, tmp_path: Path) -> None:
-    training = opened(*LONG)
-    training.until("updates/s")
-    view = opened("view", "run")
-    view.until("zigzag, nested agent", training)
-    view.press("p")
-    view.until("paused; press p to go on", training)
+    training, view = paused_by_another(opened)
     view.process.kill()
     end = time.monotonic() + 60
     while status_now(tmp_path / "run").paused:

@@ -316,6 +316,17 @@ def heard(pipe: Connection) -> list[JobReport | JobEnded]:
     return messages
 
 
+def asked_to_stop(
+    pipe: tuple[Connection, Connection], folder: Path, job: Job = SHORT_JOB
+) -> list[JobReport | JobEnded]:
+    """Return what is said where a job is to be trained, and to be saved at once."""
+    ours, theirs = pipe
+    ours.send((job, folder))
+    ours.send(None)
+    serve_jobs(theirs)
+    return heard(ours)
+
+
 def test_jobs_are_trained_one_after_the_other(pipe: tuple[Connection, Connection], tmp_path: Path) -> None:
     ours, theirs = pipe
     said: list[JobReport | JobEnded] = []
@@ -340,11 +351,7 @@ def test_jobs_are_trained_one_after_the_other(pipe: tuple[Connection, Connection
 
 
 def test_asked_to_stop_it_saves_and_ends(pipe: tuple[Connection, Connection], tmp_path: Path) -> None:
-    ours, theirs = pipe
-    ours.send((SHORT_JOB, tmp_path))
-    ours.send(None)
-    serve_jobs(theirs)
-    report, ended = heard(ours)
+    report, ended = asked_to_stop(pipe, tmp_path)
     assert isinstance(report, JobReport)
     assert ended == JobEnded(SHORT_JOB.name, finished=False)
     assert (tmp_path / "checkpoint").exists()
@@ -362,28 +369,21 @@ def test_without_its_parent_it_saves_and_ends(pipe: tuple[Connection, Connection
 def test_a_job_waits_until_a_process_without_its_parent_has_saved_it(
     pipe: tuple[Connection, Connection], tmp_path: Path
 ) -> None:
-    ours, theirs = pipe
-    ours.send((SHORT_JOB, tmp_path))
-    ours.send(None)
     with ExitStack() as other:
         other.enter_context(folder_lock(tmp_path))
         saved = Timer(0.2, other.close)
         saved.start()
-        serve_jobs(theirs)
+        said = asked_to_stop(pipe, tmp_path)
         saved.join()
-    assert heard(ours)[-1] == JobEnded(SHORT_JOB.name, finished=False)
+    assert said[-1] == JobEnded(SHORT_JOB.name, finished=False)
 
 
 def test_a_job_whose_folder_another_process_holds_is_reported(
     pipe: tuple[Connection, Connection], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("mc_nested.workers.train_job.PATIENCE_S", 0.1)
-    ours, theirs = pipe
-    ours.send((SHORT_JOB, tmp_path))
-    ours.send(None)
     with folder_lock(tmp_path):
-        serve_jobs(theirs)
-    (ended,) = heard(ours)
+        (ended,) = asked_to_stop(pipe, tmp_path)
     assert isinstance(ended, JobEnded)
     assert ended.failed.startswith(f"{tmp_path}: process {os.getpid()} is writing there")
 
@@ -397,16 +397,9 @@ def test_ctrl_c_is_left_to_the_parent(pipe: tuple[Connection, Connection], tmp_p
 
 
 def test_a_checkpoint_of_something_else_is_reported(pipe: tuple[Connection, Connection], tmp_path: Path) -> None:
-    ours, theirs = pipe
-    ours.send((one_job("nested", [DOT], 3), tmp_path))
-    ours.send(None)
-    serve_jobs(theirs)
-    heard(ours)
+    asked_to_stop(pipe, tmp_path, one_job("nested", [DOT], 3))
     saved = {path.name: path.read_bytes() for path in (tmp_path / "checkpoint").iterdir()}
-    ours.send((SHORT_JOB, tmp_path))
-    ours.send(None)
-    serve_jobs(theirs)
-    (ended,) = heard(ours)
+    (ended,) = asked_to_stop(pipe, tmp_path)
     assert isinstance(ended, JobEnded)
     assert "belongs to another scenario, agent or preset" in ended.failed
     assert {path.name: path.read_bytes() for path in (tmp_path / "checkpoint").iterdir()} == saved

@@ -6,6 +6,7 @@ The question before an arena is built, and the summary after it.
 import re
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -20,6 +21,7 @@ from mc_nested.arena.scenario import Scenario
 from mc_nested.arena.scenario_file import load_scenario
 from mc_nested.errors import DesktopError, McNestedError, NotConfirmedError, ProfileError, UserError
 from mc_nested.live.live_game import LiveGame
+from mc_nested.live.model.reading import Block
 from mc_nested.live.profile.arena import Arena
 from mc_nested.live.profile.built_arena import FLOOR, box_of
 from mc_nested.live.profile.store import load_profile, save_profile
@@ -28,7 +30,7 @@ from sim.client.client import VirtualClient
 from sim.client.game.commands import chat_line
 from sim.client.game.debug_entries import GAME_DEFAULT
 from sim.client.mishaps import Kind
-from tests.calibration.virtual_context import context_on, profile_of
+from tests.calibration.contexts import context_on, kept_profile, profile_of
 from tests.calibration.walk.test_measure import Cut
 from tests.sim.client.playing import connection_to
 
@@ -36,6 +38,11 @@ HERE = Arena.around((7, 64, 0), "south")
 """The arena of a player who stands where virtual clients begin, and looks south."""
 
 LONGEST_S = 60.0
+
+
+@pytest.fixture
+def client() -> VirtualClient:
+    return VirtualClient()
 
 
 def built(client: VirtualClient, folder: Path, questions: list[str] | None = None) -> StepResult:
@@ -52,11 +59,24 @@ def built(client: VirtualClient, folder: Path, questions: list[str] | None = Non
     return found
 
 
-def spoil(client: VirtualClient) -> None:
-    """Put a trunk in the arena, a hole in its floor, and a block beside it."""
+def spoiled(version: str = "1.20.1") -> tuple[VirtualClient, dict[Block, str]]:
+    """Return a client with a trunk in the arena, a hole in its floor and a block beside it, and what is built there."""
+    client = VirtualClient(version=version)
     client.realm.world.put((3, 64, 6), "stone")
     client.realm.world.put((3, 63, 9), "air")
     client.realm.world.put((12, 64, 6), "dirt")
+    return client, client.built
+
+
+def build_in(client: VirtualClient, profile: Profile, **options: Any) -> Profile:
+    """Build an arena; return the profile with it."""
+    with context_on(client)(profile) as context:
+        return build_arena(context, profile, **options).profile
+
+
+def undo_in(client: VirtualClient, profile: Profile) -> StepResult:
+    with context_on(client)(profile) as context:
+        return undo_arena(context, profile)
 
 
 @pytest.mark.parametrize("version", ["1.12.2", "1.13.2", "1.20.1", "1.21.11", "26.3"])
@@ -81,17 +101,14 @@ def test_on_a_free_floor_only_the_border_is_built_and_all_of_it_is_undone(versio
         ["planks" if version == "1.12.2" else "oak_planks", "stone"]
     )
     assert (client.cell(arena), client.realm.player.yaw, client.realm.player.pitch) == ((7, 0), 0.0, 65.0)
-    with context_on(client)(found.profile) as context:
-        undone = undo_arena(context, found.profile)
+    undone = undo_in(client, found.profile)
     assert client.built == {}
     assert undone.profile.arena is None
 
 
 @pytest.mark.parametrize("version", ["1.12.2", "1.20.1"])
 def test_what_stands_there_is_shown_copied_and_put_back(version: str, tmp_path: Path) -> None:
-    client = VirtualClient(version=version)
-    spoil(client)
-    before = client.built
+    client, before = spoiled(version)
     questions: list[str] = []
     found = built(client, tmp_path, questions)
     assert ("Something stands there" if version != "1.12.2" else "What stands there is not known") in questions[0]
@@ -102,23 +119,16 @@ def test_what_stands_there_is_shown_copied_and_put_back(version: str, tmp_path: 
     assert {world.block_at((x, 63, z)) for x in range(-8, 9) for z in range(-1, 16)} == {"obsidian"}
     assert {world.block_at((x, y, z)) for x in range(-7, 8) for y in (64, 65) for z in range(15)} == {"air"}
     assert world.block_at((12, 64, 6)) == "dirt"
-    with context_on(client)(found.profile) as context:
-        undo_arena(context, found.profile)
+    undo_in(client, found.profile)
     assert client.built == before
 
 
 def test_what_is_built_can_be_played_in(tmp_path: Path) -> None:
-    client = VirtualClient()
-    spoil(client)
+    client, _ = spoiled()
     profile = built(client, tmp_path).profile
     arena = profile.marked_arena()
     line = load_scenario("line")
-    game = LiveGame(
-        line,
-        profile,
-        connection_to(client),
-    )
-    with game:
+    with LiveGame(line, profile, connection_to(client)) as game:
         assert game.reset(line.best_material) == line.start
         for action in (Action.BD, Action.LD, Action.F, Action.RD):
             assert game.act(action).cell == client.cell(arena)
@@ -130,8 +140,7 @@ def test_a_game_that_can_neither_compare_nor_copy_says_so_and_asks(
 ) -> None:
     for verb in ("execute", "clone", "difficulty"):
         monkeypatch.delitem(chat_line._COMMANDS, verb)
-    client = VirtualClient(version="1.18.2")
-    spoil(client)
+    client, _ = spoiled("1.18.2")
     questions: list[str] = []
     found = built(client, tmp_path, questions)
     assert "What stands there is not known (minecraft:stone at (3, 64, 6)" in questions[0]
@@ -146,8 +155,7 @@ def test_a_game_that_can_neither_compare_nor_copy_says_so_and_asks(
 def test_a_larger_arena_is_built_copied_checked_and_undone(
     size: int, standing: tuple[int, int] | None, tmp_path: Path
 ) -> None:
-    client = VirtualClient()
-    spoil(client)
+    client, _ = spoiled()
     client.realm.world.put((-9, 64, 18), "dirt")
     before, questions = client.built, list[str]()
 
@@ -169,16 +177,13 @@ def test_a_larger_arena_is_built_copied_checked_and_undone(
     ring = {block for block, name in client.built.items() if name == "lapis_block" and block[1] == 64}
     assert len(ring) == 4 * (size + 1)
     assert {world.block_at(arena.block_of((x, y))) for x in range(size) for y in range(size)} == {"air"}
-    with context_on(client)(profile) as context:
-        undo_arena(context, profile.model_copy(update={"arena": arena}))
+    undo_in(client, profile.model_copy(update={"arena": arena}))
     assert client.built == before
 
 
 def test_what_lies_beyond_15_cells_is_built_to_the_block_in_an_arena_of_20(tmp_path: Path) -> None:
     client = VirtualClient()
-    profile = profile_of(client, tmp_path)
-    with context_on(client)(profile) as context:
-        profile = build_arena(context, profile, size=20).profile
+    profile = build_in(client, profile_of(client, tmp_path), size=20)
     arena = profile.marked_arena()
     far = frozenset({(19, 19), (18, 19), (16, 17), (19, 16)})
     stone = load_scenario("line").materials[1]
@@ -200,9 +205,7 @@ def test_what_lies_beyond_15_cells_is_built_to_the_block_in_an_arena_of_20(tmp_p
 
 def test_a_scenario_smaller_than_its_arena_is_played_in_the_arenas_near_left_corner(tmp_path: Path) -> None:
     client = VirtualClient()
-    profile = profile_of(client, tmp_path)
-    with context_on(client)(profile) as context:
-        profile = build_arena(context, profile, size=18).profile
+    profile = build_in(client, profile_of(client, tmp_path), size=18)
     arena, line = profile.marked_arena(), load_scenario("line")
     with LiveGame(line, profile, connection_to(client)) as game:
         assert game.reset(line.best_material) == line.start == client.cell(arena)
@@ -224,14 +227,12 @@ def standing_on(client: VirtualClient, arena: Arena) -> set[Cell]:
 
 @pytest.mark.parametrize("has_sky", [True, False])
 def test_an_arena_of_another_size_is_not_built_over_one_that_can_be_put_back(has_sky: bool, tmp_path: Path) -> None:
-    client = VirtualClient()
+    client, _ = spoiled()
     if not has_sky:
         client.realm.world.put((0, 128, 5), "glass")
         client.realm.world.put((0, 96, 5), "glass")
         client.realm.world.put((0, 80, 5), "glass")
-    spoil(client)
-    before, file = client.built, tmp_path / "mine.toml"
-    save_profile(profile_of(client, tmp_path), file)
+    before, file = client.built, kept_profile(client, tmp_path)
     calibrate_built_arena(file, context_on(client))
     after = client.built
     if not has_sky:
@@ -249,9 +250,7 @@ def test_an_arena_of_another_size_is_not_built_over_one_that_can_be_put_back(has
 
 
 def test_building_again_at_the_same_position_keeps_the_first_copy(tmp_path: Path) -> None:
-    client = VirtualClient()
-    spoil(client)
-    before = client.built
+    client, before = spoiled()
     first = built(client, tmp_path).profile
     with context_on(client)(first) as context:
         again = build_arena(context, first, yes=True).profile
@@ -260,25 +259,19 @@ def test_building_again_at_the_same_position_keeps_the_first_copy(tmp_path: Path
     assert client.built == before
 
 
-def test_a_copy_lies_below_blocks_in_the_sky(tmp_path: Path) -> None:
-    client = VirtualClient()
+def test_a_copy_lies_below_blocks_in_the_sky(client: VirtualClient, tmp_path: Path) -> None:
     client.realm.world.put((0, 128, 5), "glass")
     found = built(client, tmp_path)
     assert found.profile.marked_arena().copied_to == (-8, 95, -1)
     assert client.realm.world.block_at((0, 128, 5)) == "glass"
 
 
-def declined(client: VirtualClient, profile: Profile) -> None:
-    with context_on(client, ask=lambda _: False)(profile) as context:
-        build_arena(context, profile)
-
-
 def test_answering_no_changes_nothing(tmp_path: Path) -> None:
-    client = VirtualClient()
-    spoil(client)
-    before = client.built
-    with pytest.raises(UserError, match="nothing was changed"):
-        declined(client, profile_of(client, tmp_path))
+    client, before = spoiled()
+    profile = profile_of(client, tmp_path)
+    declining = context_on(client, ask=lambda _: False)
+    with declining(profile) as context, pytest.raises(UserError, match="nothing was changed"):
+        build_arena(context, profile)
     assert client.built == before
     assert client.realm.rules == {}
 
@@ -295,17 +288,15 @@ def no_cheats(client: VirtualClient) -> None:
     ("prepare", "message"), [(far_away, "part of the ground isn't loaded"), (no_cheats, "allow cheats")]
 )
 def test_ground_that_is_not_loaded_or_a_world_without_cheats_is_reported_before_the_question(
-    prepare: Callable[[VirtualClient], None], message: str, tmp_path: Path
+    client: VirtualClient, prepare: Callable[[VirtualClient], None], message: str, tmp_path: Path
 ) -> None:
-    client = VirtualClient()
     prepare(client)
     with pytest.raises(UserError, match=message):
         built(client, tmp_path)
     assert client.built == {}
 
 
-def test_a_copy_that_is_gone_is_not_put_back(tmp_path: Path) -> None:
-    client = VirtualClient()
+def test_a_copy_that_is_gone_is_not_put_back(client: VirtualClient, tmp_path: Path) -> None:
     found = built(client, tmp_path)
     low, high = box_of(HERE)
     client.realm.world.fill((low[0], 127, low[2]), (high[0], 130, high[2]), "air")
@@ -314,10 +305,8 @@ def test_a_copy_that_is_gone_is_not_put_back(tmp_path: Path) -> None:
     assert client.realm.world.block_at((0, 63, 5)) == "bedrock"
 
 
-def test_the_verbs_write_what_was_built_and_undone(tmp_path: Path) -> None:
-    client = VirtualClient()
-    file = tmp_path / "mine.toml"
-    save_profile(profile_of(client, tmp_path), file)
+def test_the_verbs_write_what_was_built_and_undone(client: VirtualClient, tmp_path: Path) -> None:
+    file = kept_profile(client, tmp_path)
     calibrate_built_arena(file, context_on(client))
     assert load_profile(file).marked_arena().copied_to == (-8, 127, -1)
     assert not note_path(file).exists(), "what the profile knows needs no note"
@@ -326,11 +315,8 @@ def test_the_verbs_write_what_was_built_and_undone(tmp_path: Path) -> None:
 
 
 def test_a_build_that_ends_early_is_undone_from_the_note(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    client = VirtualClient()
-    spoil(client)
-    before = client.built
-    file = tmp_path / "mine.toml"
-    save_profile(profile_of(client, tmp_path), file)
+    client, before = spoiled()
+    file = kept_profile(client, tmp_path)
     said: list[str] = []
 
     def refused(*_: object) -> None:
@@ -347,11 +333,8 @@ def test_a_build_that_ends_early_is_undone_from_the_note(tmp_path: Path, monkeyp
 
 
 def test_the_note_is_written_before_anything_is_built(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    client = VirtualClient()
-    spoil(client)
-    before = client.built
-    file = tmp_path / "mine.toml"
-    save_profile(profile_of(client, tmp_path), file)
+    client, before = spoiled()
+    file = kept_profile(client, tmp_path)
 
     def stopped(*_: object, **__: object) -> None:
         assert read_copy_note(file) is not None
@@ -367,28 +350,23 @@ def test_the_note_is_written_before_anything_is_built(tmp_path: Path, monkeypatc
 def left_early(client: VirtualClient, folder: Path) -> tuple[Profile, Path]:
     """Return a profile without an arena, whose file isn't there, with the note of one that was built."""
     file = folder / "new.toml"
-    with context_on(client)(profile_of(client, folder)) as context:
-        build_arena(context, profile_of(client, folder), path=file)
+    build_in(client, profile_of(client, folder), path=file)
     return profile_of(client, folder), file
 
 
 def test_a_copy_that_was_not_undone_is_kept_by_the_next_try_and_no_profile_is_needed_to_undo(tmp_path: Path) -> None:
-    client = VirtualClient()
-    spoil(client)
-    before = client.built
+    client, before = spoiled()
     profile, file = left_early(client, tmp_path)
     noted = note_path(file).read_bytes()
-    with context_on(client)(profile) as context:
-        again = build_arena(context, profile, path=file)
+    again = build_in(client, profile, path=file)
     assert note_path(file).read_bytes() == noted
-    assert again.profile.marked_arena().copied_to == (-8, 127, -1)
+    assert again.marked_arena().copied_to == (-8, 127, -1)
     undo_built_arena(file, context_on(client))
     assert client.built == before
     assert [each.name for each in tmp_path.iterdir()] == ["ascii.png"]
 
 
-def test_an_arena_that_was_left_early_is_not_copied_in_part(tmp_path: Path) -> None:
-    client = VirtualClient()
+def test_an_arena_that_was_left_early_is_not_copied_in_part(client: VirtualClient, tmp_path: Path) -> None:
     profile, file = left_early(client, tmp_path)
     after = client.built
     with context_on(client)(profile) as context, pytest.raises(UserError, match="--undo --profile"):
@@ -398,11 +376,8 @@ def test_an_arena_that_was_left_early_is_not_copied_in_part(tmp_path: Path) -> N
 
 def test_in_another_world_the_note_of_a_copy_is_not_used(tmp_path: Path) -> None:
     profile, file = left_early(VirtualClient(), tmp_path)
-    client = VirtualClient()
-    spoil(client)
-    before = client.built
-    with context_on(client)(profile) as context:
-        build_arena(context, profile, path=file)
+    client, before = spoiled()
+    build_in(client, profile, path=file)
     undo_built_arena(file, context_on(client))
     assert client.built == before
 
@@ -417,8 +392,7 @@ def test_an_earlier_profile_keeps_its_other_arena_when_the_note_is_undone(tmp_pa
     assert load_profile(file).arena == elsewhere
 
 
-def test_a_copy_with_a_hole_in_its_floor_is_put_back(tmp_path: Path) -> None:
-    client = VirtualClient()
+def test_a_copy_with_a_hole_in_its_floor_is_put_back(client: VirtualClient, tmp_path: Path) -> None:
     profile = profile_of(client, tmp_path)
     hole = Arena.around((3, 64, 0), "south").block_of((7, 0))
     client.realm.world.put((hole[0], 63, hole[2]), "air")
@@ -431,10 +405,8 @@ def test_a_copy_with_a_hole_in_its_floor_is_put_back(tmp_path: Path) -> None:
     assert client.built == before
 
 
-def test_what_can_not_be_kept_for_the_report_is_a_warning(tmp_path: Path) -> None:
-    client = VirtualClient()
-    file = tmp_path / "mine.toml"
-    save_profile(profile_of(client, tmp_path), file)
+def test_what_can_not_be_kept_for_the_report_is_a_warning(client: VirtualClient, tmp_path: Path) -> None:
+    file = kept_profile(client, tmp_path)
     (tmp_path / "mine-calibration").write_text("no folder", "utf-8")
     said: list[str] = []
     calibrate_built_arena(file, context_on(client, said.append))
@@ -463,9 +435,8 @@ def shared(client: VirtualClient, patch: pytest.MonkeyPatch) -> list[str]:
 
 
 def test_in_a_game_that_others_may_share_nothing_is_pressed_and_built(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    client: VirtualClient, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    client = VirtualClient()
     pressed = shared(client, monkeypatch)
     with pytest.raises(DesktopError, match=r"others may be playing there.*--server-allowed"):
         built(client, tmp_path)
@@ -489,11 +460,9 @@ def test_in_a_game_that_others_may_share_nothing_is_undone(tmp_path: Path, monke
 @pytest.mark.parametrize("after_s", [0.3, 2.0, 5.0, 7.0])
 @pytest.mark.parametrize("error", [KeyboardInterrupt(), DesktopError("the game's window has closed: open it again")])
 def test_ctrl_c_or_a_closed_window_at_any_time_leaves_keys_up_and_the_profile_as_it_was(
-    error: BaseException, after_s: float, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    client: VirtualClient, error: BaseException, after_s: float, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    client = VirtualClient()
-    file = tmp_path / "mine.toml"
-    save_profile(profile_of(client, tmp_path), file)
+    file = kept_profile(client, tmp_path)
     before = file.read_bytes()
     monkeypatch.setattr(client.display, "is_in_front", Cut(client, after_s, error).is_in_front)
     with pytest.raises(type(error)):
@@ -529,7 +498,7 @@ def test_a_chat_that_is_opened_meanwhile_is_closed_or_is_a_one_line_error(after_
     else:
         other, alike = tmp_path / "other", VirtualClient()
         other.mkdir()
-        save_profile(profile_of(alike, other), other / "mine.toml")
+        kept_profile(alike, other)
         calibrate_built_arena(other / "mine.toml", context_on(alike))
         assert client.built == alike.built
         assert load_profile(str(file)).arena == load_profile(str(other / "mine.toml")).arena
@@ -541,7 +510,7 @@ def test_a_chat_that_is_opened_meanwhile_is_closed_or_is_a_one_line_error(after_
 def disturbed(kind: Kind, after_s: float, folder: Path) -> VirtualClient:
     """Return a client with a profile in ``folder``, where such a mishap is to happen at about that time."""
     client = VirtualClient()
-    save_profile(profile_of(client, folder), folder / "mine.toml")
+    kept_profile(client, folder)
     for try_s in range(10):
         # Nothing of the world happens while the chat is open.
         client.mishaps.plan(kind, after_s + 0.07 * try_s)
@@ -576,13 +545,12 @@ def test_a_debug_screen_that_may_name_no_block_ends_it_before_anything_is_presse
     assert pressed == []
 
 
-ARENA = Arena.around((7, 64, 0), "south")
-COPIED = ARENA.model_copy(update={"copied_to": (-8, 127, -1)})
+COPIED = HERE.model_copy(update={"copied_to": (-8, 127, -1)})
 FREE = GroundSurvey(True, True, "grass_block", (-8, 127, -1))
 
 
 def test_free_ground_is_described_whole() -> None:
-    assert build_question(ARENA, FREE, None, ("stone", "planks")) == (
+    assert build_question(HERE, FREE, None, ("stone", "planks")) == (
         "Build the arena from (-7, 64, 0) to (7, 65, 14), facing south? There is only air. "
         "The floor, grass_block, is flat: it stays. "
         "Every reset will remove all blocks of these two layers; around them comes a border of lapis_block. "
@@ -594,7 +562,7 @@ def test_free_ground_is_described_whole() -> None:
 def test_what_was_seen_in_the_way_is_named_six_blocks_at_most() -> None:
     in_the_way = {(x, 64, 3): "dirt" for x in range(8)}
     ground = GroundSurvey(False, False, "ice", (-8, 127, -1), LookAroundResult(in_the_way, 4, 15))
-    asked = build_question(ARENA, ground, None, ())
+    asked = build_question(HERE, ground, None, ())
     assert asked.count("dirt at") == 6
     assert "Something stands there (dirt at (0, 64, 3), " in asked
     assert "dirt at (5, 64, 3), 4 of 15 looks saw the floor)." in asked
@@ -608,7 +576,7 @@ def test_cells_that_were_out_of_sight_are_counted() -> None:
 
 
 def test_ground_that_is_unknown_is_said_to_be() -> None:
-    asked = build_question(ARENA, GroundSurvey(None, None, "sand", None), None, ())
+    asked = build_question(HERE, GroundSurvey(None, None, "sand", None), None, ())
     assert "What stands there is not known." in asked
     assert "may have holes" in asked
     assert "this can't be undone" in asked
@@ -617,10 +585,10 @@ def test_ground_that_is_unknown_is_said_to_be() -> None:
 @pytest.mark.parametrize(
     ("arena", "old", "is_forgotten", "is_final"),
     [
-        (ARENA, COPIED, True, True),
+        (HERE, COPIED, True, True),
         (COPIED, COPIED, False, False),
-        (ARENA, ARENA, False, True),
-        (ARENA, None, False, True),
+        (HERE, HERE, False, True),
+        (HERE, None, False, True),
     ],
 )
 def test_the_copy_of_an_arena_before_is_forgotten_unless_it_is_kept(
@@ -632,7 +600,7 @@ def test_the_copy_of_an_arena_before_is_forgotten_unless_it_is_kept(
 
 
 def test_the_hint_is_the_command_that_copies_it_back() -> None:
-    assert undo_hint(ARENA) == "No copy was kept"
+    assert undo_hint(HERE) == "No copy was kept"
     assert undo_hint(COPIED) == "What stood there comes back with /clone -8 127 -1 8 129 15 -8 63 -1"
 
 
@@ -643,6 +611,6 @@ def test_the_summary_says_what_became_of_floor_and_copy() -> None:
         "the border was seen on all four sides."
     )
     assert second == "What stood there is copied to (-8, 127, -1): mc-nested undo puts it back."
-    built = build_summary(ARENA, GroundSurvey(True, False, "grass_block", None), "undo")
+    built = build_summary(HERE, GroundSurvey(True, False, "grass_block", None), "undo")
     assert "the floor is obsidian" in built[0]
     assert built[1].startswith("No copy was kept")

@@ -37,17 +37,17 @@ FIRST, SECOND = (-8, 127, -1), (-8, 95, -1)
 """The lowest corners of the copies 64 and 32 blocks above the floor, which is at 63."""
 
 
-def console(target: Target | None) -> ScriptedConsole:
+def sees(target: Target | None, off: tuple[float, float] = (0.0, 0.0)) -> ScriptedConsole:
     def respond(command: str) -> Reading:
         yaw, pitch = (float(part) for part in command.split()[-2:])
-        return Reading(xyz=(0.5, 64.0, 0.5), yaw=yaw, pitch=pitch, target=target)
+        return Reading(xyz=(0.5, 64.0, 0.5), yaw=yaw + off[0], pitch=pitch + off[1], target=target)
 
     return ScriptedConsole(respond)
 
 
 def survey(queries: ScriptedQueries, version: str = "1.20.1", target: str = "minecraft:grass_block") -> GroundSurvey:
     profile = Profile(game=GameVersion(version=version))
-    return survey_ground(console(Target((0, 63, 1), target)), queries, profile, ARENA, ARENA.near_middle)
+    return survey_ground(sees(Target((0, 63, 1), target)), queries, profile, ARENA, ARENA.near_middle)
 
 
 def test_free_and_flat_ground_is_copied_highest_and_not_looked_around_on() -> None:
@@ -111,7 +111,7 @@ def test_a_slippery_floor_does_not_stay() -> None:
     ],
 )
 def test_a_block_that_is_not_seen_or_has_no_name_ends_it(target: Target | None, version: str, remedy: str) -> None:
-    screen, profile = console(target), Profile(game=GameVersion(version=version))
+    screen, profile = sees(target), Profile(game=GameVersion(version=version))
     with pytest.raises(UserError, match=f"names no block, though the ground is looked at: .*{remedy}"):
         survey_ground(screen, ScriptedQueries(), profile, ARENA, ARENA.near_middle)
     assert len(looks(screen.sent)) == 1
@@ -225,17 +225,6 @@ def test_a_floor_that_differs_along_one_direction_is_not_of_one_block() -> None:
         return turns(command) if holds == (" if " in command) else None
 
     assert queries(ScriptedConsole(along_only)).is_uniform(((0, 63, 0), (16, 63, 16))) is False
-
-
-ARENA = Arena.around((7, 64, 0), "south")
-
-
-def sees(target: Target | None, off: tuple[float, float] = (0.0, 0.0)) -> ScriptedConsole:
-    def respond(command: str) -> Reading:
-        yaw, pitch = (float(part) for part in command.split()[-2:])
-        return Reading(xyz=(0.5, 64.0, 0.5), yaw=yaw + off[0], pitch=pitch + off[1], target=target)
-
-    return ScriptedConsole(respond)
 
 
 def test_the_view_is_turned_from_the_eyes_to_the_point() -> None:

@@ -3,7 +3,7 @@
 The debug screen's own reading is tested in tests/live; here one is drawn with a made-up font, as a game would show it.
 """
 
-from collections.abc import Collection, Iterator
+from collections.abc import Iterator
 from contextlib import AbstractContextManager, contextmanager
 from pathlib import Path
 
@@ -29,6 +29,7 @@ from mc_nested.live.vision.font import load_font
 from sim.client.desktop.window import VirtualClipboard
 from sim.client.drawing.f3_layers import paint
 from sim.client.game.f3_screen import F3Screen
+from tests.calibration.contexts import NoKeys
 
 FACINGS: list[Facing] = ["north", "south", "west", "east"]
 CELLS = st.tuples(st.integers(0, 14), st.integers(0, 14))
@@ -94,14 +95,11 @@ class SkippingClock:
 
 
 class DrawnDisplay:
-    """A window that shows one picture, in front after so many looks."""
+    """A window that shows one picture, and is in front."""
 
-    def __init__(
-        self, frame: Frame, looks_until_front: int = 0, title: str = "Minecraft 1.20.1 - Singleplayer"
-    ) -> None:
+    def __init__(self, frame: Frame, title: str) -> None:
         self.frame = frame
         self.name = title
-        self.looks_left = looks_until_front
 
     def size(self) -> tuple[int, int]:
         return self.frame.shape[1], self.frame.shape[0]
@@ -110,33 +108,21 @@ class DrawnDisplay:
         return self.name
 
     def is_in_front(self) -> bool:
-        self.looks_left -= 1
-        return self.looks_left < 0
+        return True
 
     def grab(self, region: Region | None = None) -> Frame:
         assert region is None
         return self.frame
 
 
-class NoInput:
+class NoInput(NoKeys):
     """A keyboard and mouse that this calibration must not touch."""
-
-    def press(self, key: str) -> None:
-        raise AssertionError(key)
-
-    def go_by_symbols(self, keys: Collection[str]) -> None:
-        raise AssertionError(keys)
-
-    release = type = press
 
     def position(self) -> tuple[int, int]:
         raise AssertionError
 
     def move(self, x: int, y: int) -> None:
         raise AssertionError((x, y))
-
-
-BLANK = np.zeros((8, 8, 3), np.uint8)
 
 
 @pytest.fixture
@@ -160,7 +146,7 @@ def window_titled(name: str, font_file: Path) -> OpenContext:
     @contextmanager
     def open_context(profile: Profile) -> Iterator[CalibrationContext]:
         frame = paint(np.full((480, 854, 3), 120, np.uint8), SCREEN, load_font(font_file))
-        devices = Devices(DrawnDisplay(frame, title=name), NoInput(), NoInput(), SkippingClock(), VirtualClipboard())
+        devices = Devices(DrawnDisplay(frame, name), NoInput(), NoInput(), SkippingClock(), VirtualClipboard())
         connection = GameConnection(devices, InputController(devices, profile.input))
         yield CalibrationContext(connection, lambda _: None, lambda _: False)
 

@@ -26,7 +26,7 @@ from mc_nested.live.profile.arena import Arena
 from mc_nested.live.profile.store import load_profile, profile_path, save_profile
 from mc_nested.live.profile.tables import Profile
 from sim.client.client import VirtualClient
-from tests.calibration.virtual_context import context_on, profile_of
+from tests.calibration.contexts import context_on, profile_of
 
 HERE = Arena.around((7, 64, 0), "south")
 COPIED = HERE.model_copy(update={"copied_to": (-8, 127, -1)})

@@ -3,7 +3,7 @@
 Recording clicks by hand: what a hotkey records, what is refused, the picture, and what leaves no trace.
 """
 
-from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import AbstractContextManager, contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -37,7 +37,7 @@ from mc_nested.live.vision.font import decoded
 from sim.client.client import VirtualClient
 from sim.client.desktop.window import VirtualClipboard
 from sim.client.game.screens import MenuState, ScreenName, menu
-from tests.calibration.contexts import SPANISH, context_of, context_over, profile_in, started
+from tests.calibration.contexts import SPANISH, NoKeys, context_of, context_over, profile_in, started
 
 LABELS: dict[str, tuple[ScreenName, str]] = {
     "back_to_game": ("pause", "Back to Game"),
@@ -310,18 +310,6 @@ class Mouse:
         raise AssertionError(button)
 
     release = press
-
-
-class NoKeys:
-    """A keyboard that this calibration must not touch."""
-
-    def press(self, key: str) -> None:
-        raise AssertionError(key)
-
-    def go_by_symbols(self, keys: Collection[str]) -> None:
-        raise AssertionError(keys)
-
-    release = type = press
 
 
 def recorded(player: Player, names: Iterable[str]) -> dict[str, tuple[float, float]]:

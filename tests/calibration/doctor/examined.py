@@ -5,8 +5,6 @@ from contextlib import AbstractContextManager, contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-import cv2
-
 from calibration.doctor.check import Check
 from calibration.doctor.examination import Examination, examine
 from calibration.installation.folders import System
@@ -14,7 +12,7 @@ from mc_nested.live.devices import Clipboard, Devices
 from mc_nested.live.profile.store import save_profile
 from mc_nested.live.profile.tables import CalibratedTable, Profile, ScreenTable
 from sim.client.client import VirtualClient
-from sim.client.drawing.letters import drawn_atlas
+from tests.calibration.contexts import font_file_in
 
 if TYPE_CHECKING:
     from calibration.installation.processes import Process
@@ -74,8 +72,7 @@ class Computer:
         if options is not None:
             self.options.write_text(options, "utf-8")
             self.entries.write_text(ENTRIES, "utf-8")
-        self.font = home / "ascii.png"
-        self.font.write_bytes(cv2.imencode(".png", drawn_atlas())[1].tobytes())
+        self.font = font_file_in(home)
         self.profile = home / "mine.toml"
         self.save(Profile(screen=ScreenTable(font=str(self.font)), calibrated=calibrated()))
         self.processes: Sequence[Process] | None = []
@@ -84,6 +81,13 @@ class Computer:
     def save(self, profile: Profile) -> None:
         self.profile.unlink(missing_ok=True)
         save_profile(profile, self.profile)
+
+    def jar_with_the_font(self) -> Path:
+        """Install a version of the game; return its jar."""
+        jar = self.options.parent / "versions" / "1.20.1" / "1.20.1.jar"
+        jar.parent.mkdir(parents=True)
+        jar.write_bytes(self.font.read_bytes())
+        return jar
 
     def examined(
         self,

@@ -223,12 +223,10 @@ def test_without_a_desktop_or_anything_else_every_row_is_there(tmp_path: Path) -
 def test_a_font_is_found_in_a_launchers_folder_where_the_profile_names_none(computer: Computer) -> None:
     computer.save(Profile())
     assert rows(computer.examined(opened(client_in(as_it_was))))["font"].fix.startswith("name your game's client jar")
-    jar = computer.options.parent / "versions" / "1.20.1" / "1.20.1.jar"
-    jar.parent.mkdir(parents=True)
-    jar.write_bytes(computer.font.read_bytes())
+    jar = computer.jar_with_the_font()
     found = rows(computer.examined(opened(client_in(as_it_was))))
-    assert found["font"].detail == f"found, of Minecraft 1.20.1: {jar}"
     assert found["debug screen"].status == "pass"
+    assert found["font"].detail == f"found, of Minecraft 1.20.1: {jar}"
 
 
 def test_with_a_named_font_and_no_profile_the_keys_are_tried(computer: Computer) -> None:
@@ -240,13 +238,11 @@ def test_with_a_named_font_and_no_profile_the_keys_are_tried(computer: Computer)
 
 def test_a_font_that_can_not_be_read_is_a_fault_and_another_one_is_read_with(computer: Computer) -> None:
     computer.save(Profile(screen=ScreenTable(font=str(computer.system.home / "gone.jar"))))
-    jar = computer.options.parent / "versions" / "1.20.1" / "1.20.1.jar"
-    jar.parent.mkdir(parents=True)
-    jar.write_bytes(computer.font.read_bytes())
+    computer.jar_with_the_font()
     found = rows(computer.examined(opened(client_in(as_it_was))))
+    assert found["debug screen"].status == "pass"
     assert found["font"].status == "fail"
     assert "gone.jar" in found["font"].detail
-    assert found["debug screen"].status == "pass"
 
 
 def test_an_unreadable_jar_is_one_row_and_without_any_font_nothing_is_pressed(computer: Computer) -> None:

@@ -29,6 +29,11 @@ from sim.client.game.debug_entries import GAME_DEFAULT, DebugEntries
 from tests.calibration.contexts import started
 
 
+@pytest.fixture
+def client() -> VirtualClient:
+    return started(VirtualClient())
+
+
 def tried(client: VirtualClient, keys: KeysTable | None = None, *, opens_menu_at: int = 999) -> Check:
     font, taken = font_of(drawn_atlas()), 0
 
@@ -44,8 +49,7 @@ def tried(client: VirtualClient, keys: KeysTable | None = None, *, opens_menu_at
         return input_row(client.devices, controller, snapshot, keys or KeysTable())
 
 
-def test_a_step_a_slot_and_the_debug_screen_are_seen_and_undone() -> None:
-    client = started(VirtualClient())
+def test_a_step_a_slot_and_the_debug_screen_are_seen_and_undone(client: VirtualClient) -> None:
     player = client.game.realm.player
     player.slot, before = 4, player.feet
     row = tried(client)
@@ -68,8 +72,7 @@ def test_an_entry_that_is_always_shown_does_not_count_as_the_debug_screen(versio
     assert client.game.has_f3
 
 
-def test_a_step_that_was_not_wholly_taken_back_is_said_with_its_blocks() -> None:
-    client = started(VirtualClient())
+def test_a_step_that_was_not_wholly_taken_back_is_said_with_its_blocks(client: VirtualClient) -> None:
     before = client.game.realm.player.feet
     row = tried(client, KeysTable(back="i"))
     left = re.search(r"; undone but for (\d\.\d\d) blocks of the step$", row.detail)
@@ -93,8 +96,7 @@ def test_in_a_game_that_lags_the_slot_is_waited_for_as_long_as_the_step(lag_s: f
 
 
 @pytest.mark.parametrize("slot", range(9))
-def test_whichever_slot_was_chosen_is_chosen_again(slot: int) -> None:
-    client = started(VirtualClient())
+def test_whichever_slot_was_chosen_is_chosen_again(client: VirtualClient, slot: int) -> None:
     client.game.realm.player.slot = slot
     client.clock.sleep(0.3)
     assert tried(client).status == "pass"
@@ -102,8 +104,7 @@ def test_whichever_slot_was_chosen_is_chosen_again(slot: int) -> None:
     assert client.game.realm.player.slot == slot
 
 
-def test_where_no_movement_key_arrives_the_debug_screens_key_is_not_pressed() -> None:
-    client = started(VirtualClient())
+def test_where_no_movement_key_arrives_the_debug_screens_key_is_not_pressed(client: VirtualClient) -> None:
     row = tried(client, KeysTable(forward="i", back="k", left="j"))
     assert (row.status, row.detail) == (
         "fail",
@@ -113,46 +114,40 @@ def test_where_no_movement_key_arrives_the_debug_screens_key_is_not_pressed() ->
     assert client.game.has_f3
 
 
-def test_a_wall_in_front_is_no_fault() -> None:
-    client = started(VirtualClient())
+def test_a_wall_in_front_is_no_fault(client: VirtualClient) -> None:
     row = tried(client, KeysTable(forward="i"))
     assert row.status == "pass"
     assert row.detail.startswith("s, 1, 2 and f3")
 
 
-def test_a_slot_that_is_not_seen_to_change_is_a_warning_and_no_other_key_is_pressed() -> None:
-    client = started(VirtualClient())
+def test_a_slot_that_is_not_seen_to_change_is_a_warning_and_no_other_key_is_pressed(client: VirtualClient) -> None:
     row = tried(client, KeysTable(hotbar=("i", "j", *"3456789")))
     assert (row.status, row.detail) == ("warn", "i and j were pressed, and the hotbar's frame wasn't seen to move")
     assert client.game.has_f3
 
 
-def test_a_debug_key_without_an_effect_fails_after_its_time() -> None:
-    client = started(VirtualClient())
+def test_a_debug_key_without_an_effect_fails_after_its_time(client: VirtualClient) -> None:
     row = tried(client, KeysTable(debug="f9"))
     assert row.status == "fail"
     assert row.detail == "f9 was pressed, and the debug screen stayed on"
 
 
 @pytest.mark.parametrize("screen", ["pause", "chat", "title"])
-def test_on_another_screen_nothing_is_pressed(screen: str) -> None:
-    client = started(VirtualClient())
+def test_on_another_screen_nothing_is_pressed(client: VirtualClient, screen: str) -> None:
     client.game.open(screen)  # type: ignore[arg-type]
     client.clock.sleep(0.3)
     assert tried(client).status == "skip"
     assert client.game.screen == screen
 
 
-def test_behind_another_window_nothing_is_pressed() -> None:
-    client = started(VirtualClient())
+def test_behind_another_window_nothing_is_pressed(client: VirtualClient) -> None:
     client.set_front(is_in_front=False)
     row = tried(client)
     assert (row.status, row.detail) == ("skip", "another window is in front, so nothing is pressed")
     assert client.game.has_f3
 
 
-def test_a_menu_that_opens_meanwhile_is_a_warning() -> None:
-    client = started(VirtualClient())
+def test_a_menu_that_opens_meanwhile_is_a_warning(client: VirtualClient) -> None:
     row = tried(client, opens_menu_at=2)
     assert (row.status, row.detail) == ("warn", "a menu opened meanwhile")
 

@@ -22,12 +22,16 @@ GREY = np.full((3, 4, 3), 99, np.uint8)
 RED = np.full((2, 2, 3), (0, 0, 255), np.uint8)
 
 
+@pytest.fixture
+def profile(tmp_path: Path) -> Path:
+    return tmp_path / "mine.toml"
+
+
 def found(step: str, *lines: str, pictures: tuple[ReportPicture, ...] = ()) -> StepResult:
     return StepResult(step, Profile(), lines, len(lines), pictures)
 
 
-def test_saved_findings_are_loaded_as_they_were(tmp_path: Path) -> None:
-    profile = tmp_path / "mine.toml"
+def test_saved_findings_are_loaded_as_they_were(profile: Path) -> None:
     font = found("font", "scale 2", pictures=(ReportPicture("grey", GREY, "all over"), ReportPicture("red", RED)))
     save_findings(profile, [font, found("cross-check")], [Check(CheckName.CLIPBOARD, "skip", "none")], "2026-11-21")
     kept = load_findings(profile)
@@ -43,8 +47,7 @@ def test_saved_findings_are_loaded_as_they_were(tmp_path: Path) -> None:
     assert np.array_equal(red.frame, RED)
 
 
-def test_a_repeated_step_replaces_the_old_one_and_its_pictures(tmp_path: Path) -> None:
-    profile = tmp_path / "mine.toml"
+def test_a_repeated_step_replaces_the_old_one_and_its_pictures(profile: Path) -> None:
     two = (ReportPicture("one", GREY), ReportPicture("two", GREY))
     save_findings(
         profile, [found("font", "old", pictures=two), found("walk", "slow", pictures=two[:1])], today="2026-11-20"
@@ -57,8 +60,7 @@ def test_a_repeated_step_replaces_the_old_one_and_its_pictures(tmp_path: Path) -
     assert left == {"found.json", "font-1.png", "walk-1.png"}
 
 
-def test_the_doctors_table_stays_until_there_is_a_new_one(tmp_path: Path) -> None:
-    profile = tmp_path / "mine.toml"
+def test_the_doctors_table_stays_until_there_is_a_new_one(profile: Path) -> None:
     save_findings(profile, [], [Check(CheckName.WINDOW, "fail", "none", "start the game")], "2026-11-20")
     save_findings(profile, [found("font")], today="2026-11-21")
     kept = load_findings(profile)
@@ -69,8 +71,7 @@ def test_beside_a_profile_that_was_never_calibrated_lies_nothing(tmp_path: Path)
     assert load_findings(tmp_path / "mine.toml") == Findings()
 
 
-def test_a_picture_that_is_gone_is_left_out(tmp_path: Path) -> None:
-    profile = tmp_path / "mine.toml"
+def test_a_picture_that_is_gone_is_left_out(profile: Path) -> None:
     save_findings(profile, [found("font", "a line", pictures=(ReportPicture("grey", GREY),))], today="2026-11-21")
     (findings_folder(profile) / "font-1.png").unlink()
     assert load_findings(profile).steps == (StepFindings("font", "2026-11-21", ("a line",), 1, ()),)
@@ -79,16 +80,14 @@ def test_a_picture_that_is_gone_is_left_out(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     "text", ["{", "[]", '{"steps": [{"step": 3}]}', '{"checks": [{"name": "a", "status": "odd", "detail": ""}]}']
 )
-def test_a_damaged_list_is_a_one_line_error_that_says_what_to_do(tmp_path: Path, text: str) -> None:
-    profile = tmp_path / "mine.toml"
+def test_a_damaged_list_is_a_one_line_error_that_says_what_to_do(profile: Path, text: str) -> None:
     save_findings(profile, [], today="2026-11-21")
     (findings_folder(profile) / "found.json").write_text(text)
     with pytest.raises(ProfileError, match="remove that folder, and calibrate again"):
         load_findings(profile)
 
 
-def test_a_list_never_names_a_file_outside_its_folder(tmp_path: Path) -> None:
-    profile = tmp_path / "mine.toml"
+def test_a_list_never_names_a_file_outside_its_folder(profile: Path) -> None:
     save_findings(profile, [found("font", pictures=(ReportPicture("grey", GREY),))], today="2026-11-21")
     path = findings_folder(profile) / "found.json"
     path.write_text(path.read_text().replace("font-1.png", "../font-1.png"))

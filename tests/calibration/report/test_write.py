@@ -7,16 +7,11 @@ import pytest
 
 from calibration.context import ReportPicture, StepResult
 from calibration.report.findings import save_findings
-from mc_nested.cli.app import main
 from mc_nested.live.profile.store import save_profile
 from mc_nested.live.profile.tables import Profile, ScreenTable
+from tests.cli.running import run
 
-
-def code_of(*words: str | Path) -> int | str | None:
-    """Return the exit code of the command."""
-    with pytest.raises(SystemExit) as ended:
-        main(["calibrate", "report", *map(str, words)])
-    return ended.value.code
+REPORT = ("calibrate", "report", "--profile")
 
 
 @pytest.fixture
@@ -32,7 +27,7 @@ def profile(tmp_path: Path) -> Path:
 def test_the_report_lies_beside_the_profile_and_its_list_is_printed(
     profile: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    assert code_of("--profile", profile) in (0, None)
+    assert run(*REPORT, profile) == 0
     html = profile.with_name("mine-calibration.html").read_text("utf-8")
     said = capsys.readouterr().out.splitlines()
     assert said[0] == f"report: {profile.with_name('mine-calibration.html')}"
@@ -44,19 +39,19 @@ def test_the_report_lies_beside_the_profile_and_its_list_is_printed(
 
 def test_no_images_and_another_file_can_be_chosen(profile: Path, tmp_path: Path) -> None:
     out = tmp_path / "new" / "folder" / "report.html"
-    assert code_of("--profile", profile, "--out", out, "--no-images") in (0, None)
+    assert run(*REPORT, profile, "--out", out, "--no-images") == 0
     assert "data:image" not in out.read_text("utf-8").replace("img-src data:", "")
     assert not profile.with_name("mine-calibration.html").exists()
 
 
 def test_the_same_profile_gives_the_same_report_to_the_byte(profile: Path, tmp_path: Path) -> None:
     for name in ("one", "two"):
-        code_of("--profile", profile, "--out", tmp_path / name)
+        run(*REPORT, profile, "--out", tmp_path / name)
     assert (tmp_path / "one").read_bytes() == (tmp_path / "two").read_bytes()
 
 
 def test_a_missing_profile_is_a_one_line_error(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    assert code_of("--profile", tmp_path / "none.toml") == 2
+    assert run(*REPORT, tmp_path / "none.toml") == 2
     assert len(capsys.readouterr().err.splitlines()) == 1
 
 
@@ -64,6 +59,6 @@ def test_an_out_file_that_is_a_folder_is_a_one_line_error(
     profile: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     (tmp_path / "folder").mkdir()
-    assert code_of("--profile", profile, "--out", tmp_path / "folder") == 2
+    assert run(*REPORT, profile, "--out", tmp_path / "folder") == 2
     assert "name another --out" in capsys.readouterr().err
     assert list(tmp_path.glob("*.unfinished")) == []

@@ -12,12 +12,12 @@ from calibration.walk.measure import WITHOUT_TICKS, calibrate_walk, walk
 from mc_nested.errors import DesktopError, McNestedError, NotConfirmedError, NotInFrontError, UserError
 from mc_nested.live.model.kinematics import TICK_S
 from mc_nested.live.profile.arena import Arena
-from mc_nested.live.profile.store import load_profile, save_profile
+from mc_nested.live.profile.store import load_profile
 from mc_nested.live.profile.tables import KeysTable, Profile, WalkTable
 from sim.client.client import VirtualClient
 from sim.client.game.options import GameOptions
 from sim.client.mishaps import Kind
-from tests.calibration.virtual_context import context_on, profile_of
+from tests.calibration.contexts import context_on, kept_profile, profile_of
 
 LONGEST_S = 90.0
 
@@ -304,9 +304,7 @@ def test_in_a_game_that_others_may_share_nothing_is_pressed(tmp_path: Path, monk
 @pytest.fixture
 def kept(tmp_path: Path) -> Path:
     """Return a profile's file, which names no walk of its own."""
-    file = tmp_path / "mine.toml"
-    save_profile(profile_of(VirtualClient(), tmp_path), file)
-    return file
+    return kept_profile(VirtualClient(), tmp_path)
 
 
 @pytest.mark.slow

@@ -41,19 +41,19 @@ def test_jitter_of_every_event_moves_it_by_milliseconds_only() -> None:
     assert round_trip_of(holds) == pytest.approx(0.0405, abs=0.004)
 
 
+HOLDS = [hold(100 + index * 0.831, 0.2 + index % 5 * 0.037, 0.0125, 0.028) for index in range(60)]
+LAGGED = [hold(200 + index * 0.831, 0.25, 0.3, 0.2) for index in range(4)]
+
+
 def test_a_few_holds_that_lag_delayed_move_it_little() -> None:
-    holds = [hold(100 + index * 0.831, 0.2 + index % 5 * 0.037, 0.0125, 0.028) for index in range(60)]
-    lagged = [hold(200 + index * 0.831, 0.25, 0.3, 0.2) for index in range(4)]
-    assert round_trip_of([*holds, *lagged]) == pytest.approx(0.0405, abs=0.004)
+    assert round_trip_of([*HOLDS, *LAGGED]) == pytest.approx(0.0405, abs=0.004)
 
 
 def test_few_edges_disagree_where_a_game_stalls_at_times_and_many_where_frames_are_slow() -> None:
-    holds = [hold(100 + index * 0.831, 0.2 + index % 5 * 0.037, 0.0125, 0.028) for index in range(60)]
-    lagged = [hold(200 + index * 0.831, 0.25, 0.3, 0.2) for index in range(4)]
-    assert disagreeing(holds, 0.0405) == 0.0
+    assert disagreeing(HOLDS, 0.0405) == 0.0
     # 8 ms more: edges of 40.5 to 44.5 ms out of 40.5 to 90.5 don't fit.
-    assert disagreeing(holds, 0.0485) == pytest.approx(4 / 50, abs=0.03)
-    assert disagreeing([*holds, *lagged], 0.0405) == pytest.approx(4 / 64)
+    assert disagreeing(HOLDS, 0.0485) == pytest.approx(4 / 50, abs=0.03)
+    assert disagreeing([*HOLDS, *LAGGED], 0.0405) == pytest.approx(4 / 64)
     # A key waits for one of ten frames a second, and its tick is seen in the next one.
     slow = [
         HoldTiming(at, at + 0.25, 5, ((1, at + delay, at + delay),))

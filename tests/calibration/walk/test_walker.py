@@ -14,7 +14,8 @@ from tests.live.notes import Notes
 PROFILE = Profile()
 
 
-def _game() -> FakeGame:
+@pytest.fixture
+def game() -> FakeGame:
     return FakeGame(PROFILE, xyz=(10.5, 64.0, -3.5), yaw=90.0, pitch=20.0)
 
 
@@ -22,8 +23,7 @@ def _walker(game: FakeGame) -> Walker:
     return Walker(connection_to(game), PROFILE)
 
 
-def test_positions_are_relative_to_the_pose_at_the_beginning() -> None:
-    game = _game()
+def test_positions_are_relative_to_the_pose_at_the_beginning(game: FakeGame) -> None:
     walker = _walker(game)
     assert walker.stand() == (0.0, 0.0)
     # Yaw 90 looks west, which is -X; right of it is north, which is -Z.
@@ -33,8 +33,7 @@ def test_positions_are_relative_to_the_pose_at_the_beginning() -> None:
 
 
 @pytest.mark.parametrize(("keys", "axis", "sign"), [("w", 1, 1), ("s", 1, -1), ("d", 0, 1), ("a", 0, -1)])
-def test_a_hold_is_recorded_step_by_step_until_standstill(keys: str, axis: int, sign: int) -> None:
-    game = _game()
+def test_a_hold_is_recorded_step_by_step_until_standstill(game: FakeGame, keys: str, axis: int, sign: int) -> None:
     walker = _walker(game)
     recorded = walker.hold(0.2, keys)
     assert recorded.held_s == pytest.approx(0.2)
@@ -47,9 +46,8 @@ def test_a_hold_is_recorded_step_by_step_until_standstill(keys: str, axis: int, 
     assert game.down == set()
 
 
-def test_its_journal_is_told_of_each_hold_in_ticks() -> None:
+def test_its_journal_is_told_of_each_hold_in_ticks(game: FakeGame) -> None:
     notes = Notes()
-    game = _game()
     connection = connection_to(game)
     connection.journal = notes
     walker = Walker(connection, PROFILE)
@@ -61,38 +59,34 @@ def test_its_journal_is_told_of_each_hold_in_ticks() -> None:
     ]
 
 
-def test_each_sighting_says_between_which_two_looks_a_step_came() -> None:
-    game = _game()
+def test_each_sighting_says_between_which_two_looks_a_step_came(game: FakeGame) -> None:
     recorded = _walker(game).hold(0.2, "w")
     assert all(0 < sighting.at - sighting.since < 0.012 for sighting in recorded.sightings)
     gaps = [after.at - before.at for before, after in zip(recorded.sightings, recorded.sightings[1:], strict=False)]
     assert gaps == pytest.approx([0.05] * len(gaps), abs=0.009)
 
 
-def test_the_keys_go_down_a_whole_number_of_ticks_after_the_phase() -> None:
-    game = _game()
+def test_the_keys_go_down_a_whole_number_of_ticks_after_the_phase(game: FakeGame) -> None:
     recorded = _walker(game).hold(0.1, "w", phase=0.013)
     assert (recorded.pressed - 0.013) % 0.05 == pytest.approx(0.0, abs=1e-9) or (
         recorded.pressed - 0.013
     ) % 0.05 == pytest.approx(0.05, abs=1e-9)
 
 
-def test_a_hold_ends_early_at_its_largest_distance() -> None:
-    recorded = _walker(_game()).hold(2.0, "w", max_distance=1.0)
+def test_a_hold_ends_early_at_its_largest_distance(game: FakeGame) -> None:
+    recorded = _walker(game).hold(2.0, "w", max_distance=1.0)
     assert 0.2 < recorded.held_s < 0.4
     assert recorded.offsets[-1].forward < 1.0 + 3 * 0.216
 
 
-def test_a_key_without_effect_is_watched_for_a_second() -> None:
-    game = _game()
+def test_a_key_without_effect_is_watched_for_a_second(game: FakeGame) -> None:
     recorded = _walker(game).hold(0.1, "j")
     assert recorded.sightings == ()
     assert recorded.end == recorded.begin == (0.0, 0.0)
     assert game.clock.now() - recorded.released == pytest.approx(1.0, abs=0.02)
 
 
-def test_after_a_hold_nothing_is_waited_for_where_it_ended_and_elsewhere_five_ticks() -> None:
-    game = _game()
+def test_after_a_hold_nothing_is_waited_for_where_it_ended_and_elsewhere_five_ticks(game: FakeGame) -> None:
     walker = _walker(game)
     walker.hold(0.1, "w")
     began = game.clock.now()
@@ -113,9 +107,8 @@ def test_after_a_hold_nothing_is_waited_for_where_it_ended_and_elsewhere_five_ti
     ],
 )
 def test_a_player_who_rises_or_turns_during_a_hold_is_an_error_with_every_key_up(
-    reading: Reading, complaint: str
+    game: FakeGame, reading: Reading, complaint: str
 ) -> None:
-    game = _game()
     screen = FakeScreen(game, lambda: reading if game.clock.now() > 100.35 else None)
     walker = Walker(connection_to(game, screen), PROFILE)
     walker.stand()
@@ -125,8 +118,7 @@ def test_a_player_who_rises_or_turns_during_a_hold_is_an_error_with_every_key_up
     assert game.down == set()
 
 
-def test_a_window_that_loses_the_focus_during_a_hold_ends_it_at_once() -> None:
-    game = _game()
+def test_a_window_that_loses_the_focus_during_a_hold_ends_it_at_once(game: FakeGame) -> None:
     walker = _walker(game)
     walker.stand()
     game.front_until = game.clock.now() + 0.1

@@ -13,15 +13,15 @@ import pytest
 
 from mc_nested.arena.action import Action
 from mc_nested.arena.env import ArenaEnv
-from mc_nested.arena.game import Outcome
 from mc_nested.arena.vector import ArenaVectorEnv
 from mc_nested.learn.agents import AGENT_SPECS, Agent
 from mc_nested.learn.evaluation import play_greedily
 from mc_nested.learn.games.episode import EpisodeOut, EpisodePlan, EpisodesOut, PlayedEpisode, play_episode
 from mc_nested.learn.preset import load_preset
-from sim.grid import GridGame, GridVectorEnv
+from sim.grid import GridVectorEnv
 from tests.learn.games.lockstep import game_of, learner_of
 from tests.learn.imagination.made_games import BENT, SMALL
+from tests.learn.made_trainings import StartsOver
 
 
 def an_episode(number: int, *, greedy: bool = False, probes: frozenset[tuple[int, int]] = frozenset()) -> EpisodeOut:
@@ -114,20 +114,10 @@ def test_the_first_tries_go_on_within_the_episode() -> None:
     assert played.actions[: len(Action)].tolist() == sorted(Action)[: played.steps]
 
 
-class Breaks(GridGame):
-    """A game that is gone after three actions."""
-
-    acts_left = 3
-
-    def act(self, action: Action, material: int | None = None) -> Outcome:
-        self.acts_left -= 1
-        if not self.acts_left:
-            raise ConnectionError("the game is gone")
-        return super().act(action, material)
-
-
 def test_an_error_of_the_game_passes_through() -> None:
-    arena = ArenaVectorEnv([ArenaEnv(Breaks(BENT), BENT)])
+    game = StartsOver(BENT)
+    game.acts_left = 3
+    arena = ArenaVectorEnv([ArenaEnv(game, BENT)])
     agent = Agent(AGENT_SPECS["nested"], [BENT], SMALL, 0)
     with pytest.raises(ConnectionError):
         play_episode(arena, learner_of(BENT, SMALL).plan("game"), agent)
@@ -141,6 +131,7 @@ plan = pickle.loads(Path(sys.argv[1]).read_bytes())
 assert not any(name.startswith(("numba", "mc_nested.learn.dqn")) for name in sys.modules), "plain data"
 from tests.learn.games.lockstep import game_of
 from tests.learn.imagination.made_games import BENT, SMALL
+from tests.learn.made_trainings import StartsOver
 Path(sys.argv[2]).write_bytes(pickle.dumps(game_of(BENT, SMALL)(plan)))
 """
 

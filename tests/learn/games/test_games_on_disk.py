@@ -5,34 +5,23 @@ from pathlib import Path
 import pytest
 
 from mc_nested.arena.env import ArenaEnv
-from mc_nested.arena.scenario_file import table_of
 from mc_nested.arena.vector import ArenaVectorEnv
 from mc_nested.learn.games.games_trainer import GamesTrainer
 from mc_nested.learn.preset import Preset
-from mc_nested.learn.runs.run_config import RunConfig
 from mc_nested.learn.runs.run_folder import RunFolder
 from mc_nested.learn.trainer import Trainer
 from sim.grid import GridGame
 from tests.learn.games.lockstep import finish, game_of
 from tests.learn.games.test_one_game import assert_same
 from tests.learn.imagination.made_games import BENT, SMALL
-from tests.learn.made_experiments import small_preset
+from tests.learn.made_experiments import run_config, small_preset
+from tests.learn.made_trainings import finish as finished
 
 SEED = 4
 
 
 def folder_in(path: Path, preset: Preset = SMALL) -> RunFolder:
-    config = RunConfig(
-        agent="nested",
-        backend="sim",
-        trials=1,
-        seed=SEED,
-        stop_at_optimum=False,
-        preset_name="small",
-        preset=preset,
-        scenario=table_of(BENT),
-    )
-    folder = RunFolder.new(path, config)
+    folder = RunFolder.new(path, run_config(BENT, seed=SEED, preset=preset))
     folder.begin()
     return folder
 
@@ -70,9 +59,7 @@ def test_a_saved_learner_goes_on_to_the_bit_and_says_what_it_came_to(tmp_path: P
 
 
 def test_a_trainer_goes_on_with_what_a_learner_began_and_the_other_way_round(tmp_path: Path) -> None:
-    alone, play = trainer_in(folder_in(tmp_path / "alone")), game_of(BENT, SMALL)
-    while not alone.finished:
-        alone.tick()
+    alone, play = finished(trainer_in(folder_in(tmp_path / "alone"))), game_of(BENT, SMALL)
     begun_by_games, begun_by_trainer = folder_in(tmp_path / "games"), folder_in(tmp_path / "trainer")
 
     learner = learner_in(begun_by_games)
@@ -81,8 +68,7 @@ def test_a_trainer_goes_on_with_what_a_learner_began_and_the_other_way_round(tmp
     begun_by_games.save(learner, 1.0)
     trainer = trainer_in(begun_by_games)
     begun_by_games.checkpoint.load_into(trainer)
-    while not trainer.finished:
-        trainer.tick()
+    finished(trainer)
     assert trainer.episode_rows == alone.episode_rows
     assert trainer.evaluation_rows == alone.evaluation_rows
 

@@ -1,7 +1,6 @@
 """A learner with several games: what counts and what doesn't, how their episodes differ, and when it is finished."""
 
 import itertools
-from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -20,6 +19,7 @@ from tests.arena.made_parts import STRIPES
 from tests.learn.games.lockstep import finish, game_of, learner_of
 from tests.learn.imagination.made_games import BENT, SMALL, TWO
 from tests.learn.made_experiments import small_preset
+from tests.learn.made_trainings import copied
 
 PAPER = load_preset("paper").model_copy(update={"episodes": 6, "evaluate_every": 3})
 PLAY = {id(preset): game_of(BENT, preset) for preset in (SMALL, PAPER)}
@@ -29,19 +29,15 @@ def play(plan: EpisodePlan, preset: Preset = SMALL) -> PlayedEpisode:
     return PLAY[id(preset)](plan)
 
 
-def copied(arrays: Arrays) -> Arrays:
-    return {name: kept.copy() for name, kept in arrays.items()}
-
-
-def assert_same(one: Arrays, other: Arrays, but: Sequence[str] = ()) -> None:
+def assert_same(one: Arrays, other: Arrays) -> None:
     assert one.keys() == other.keys()
-    for name in one.keys() - set(but):
+    for name in one:
         np.testing.assert_array_equal(one[name], other[name], err_msg=name)
 
 
-def with_a_known_game(preset: Preset = SMALL) -> GamesTrainer:
+def with_a_known_game() -> GamesTrainer:
     """Return a learner that has played enough to know what its actions do."""
-    learner = learner_of(BENT, preset)
+    learner = learner_of(BENT, SMALL)
     for _ in range(3):
         learner.take(play(learner.plan("game")))
     assert learner.imagination is not None

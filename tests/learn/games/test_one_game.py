@@ -17,6 +17,7 @@ from mc_nested.learn.training import Training
 from sim.grid import GridGame
 from tests.learn.games.lockstep import finish, game_of, learner_of
 from tests.learn.imagination.made_games import BENT, SMALL, TWO
+from tests.learn.made_trainings import finish as finished
 from tests.learn.test_training_beside_a_live_game import ENOUGH, Rounds, Slow
 
 OF_THE_ARENA = {"observations", "materials", "steps_in_episode", "between_episodes", "evaluating"}
@@ -35,10 +36,7 @@ def trainer_of(
 ) -> Trainer:
     arena = ArenaVectorEnv([ArenaEnv(game or GridGame(scenario), scenario)])
     trains = Agent(AGENT_SPECS[agent], [scenario], preset, seed)
-    trainer = Trainer(trains.view_of(arena, [scenario]), [scenario], trains, preset, seed, stops, background)
-    while not trainer.finished:
-        trainer.tick()
-    return trainer
+    return finished(Trainer(trains.view_of(arena, [scenario]), [scenario], trains, preset, seed, stops, background))
 
 
 def state_of(training: Training) -> Arrays:

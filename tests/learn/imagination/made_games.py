@@ -48,13 +48,8 @@ def with_update(preset: Preset, **changes: float) -> Preset:
     return preset.model_copy(update={"update": preset.update.model_copy(update=changes)})
 
 
-class MadeUpGame:
-    """A game with rules of its own: where each action leads, which place a block, and where that lands."""
-
-    def __init__(self, moves: Sequence[Cell], places: Sequence[bool], lands: Cell, scenario: Scenario) -> None:
-        self._moves, self._places, self._lands = moves, places, lands
-        self._start, self._size = scenario.start, scenario.size
-        self._cell, self._blocks = scenario.start, set[Cell]()
+class Plain:
+    """What a game is that can't be saved half-way and notes nothing."""
 
     @property
     def resumable(self) -> Resumable | None:
@@ -63,6 +58,15 @@ class MadeUpGame:
     @property
     def log(self) -> PlayLog | None:
         return None
+
+
+class MadeUpGame(Plain):
+    """A game with rules of its own: where each action leads, which place a block, and where that lands."""
+
+    def __init__(self, moves: Sequence[Cell], places: Sequence[bool], lands: Cell, scenario: Scenario) -> None:
+        self._moves, self._places, self._lands = moves, places, lands
+        self._start, self._size = scenario.start, scenario.size
+        self._cell, self._blocks = scenario.start, set[Cell]()
 
     def reset(self, material: int) -> Cell:  # noqa: ARG002 - the rules are the same for every material
         self._cell, self._blocks = self._start, set()
@@ -110,19 +114,11 @@ def play_by(
     return step + 1
 
 
-class Slipping:
+class Slipping(Plain):
     """A game in which some of the actions are done as another."""
 
     def __init__(self, game: Game, share: float, random: np.random.Generator) -> None:
         self._game, self._share, self._random = game, share, random
-
-    @property
-    def resumable(self) -> Resumable | None:
-        return None
-
-    @property
-    def log(self) -> PlayLog | None:
-        return None
 
     def reset(self, material: int) -> Cell:
         return self._game.reset(material)

@@ -21,13 +21,19 @@ def row() -> Row:
     return Row(online, target, first_moment, second_moment, np.zeros(1, np.int64))
 
 
-def session_of(own: Row, most_updates: int = FOR_EVER, after: Callable[[], None] = lambda: None) -> PracticeSession:
-    """Add 1 to the online network in each update, which makes it play better."""
+def session_of(
+    own: Row,
+    most_updates: int = FOR_EVER,
+    after: Callable[[], None] = lambda: None,
+    by: int = 1,
+    best: Float32s | None = None,
+) -> PracticeSession:
+    """Add 1 to the online network in each update, which makes it play better, unless it is known which is best."""
 
     def practise(numbers: Float64s, parts: Row, progress: Progress) -> None:
-        parts.online[:] += len(numbers)
+        parts.online[:] += by * len(numbers)
         parts.updates[0] += len(numbers)
-        progress.best[:] = parts.online
+        progress.best[:] = parts.online if best is None else best
         if len(numbers):
             after()
 
@@ -38,16 +44,7 @@ def session_of(own: Row, most_updates: int = FOR_EVER, after: Callable[[], None]
 def worsening_session(own: Row, after: Callable[[], None]) -> tuple[PracticeSession, Float32s]:
     """Take 1 from the online network in each update, which makes it play worse than the second value, the best."""
     best = np.array([1.0, 1.0], np.float32)
-
-    def worsens(numbers: Float64s, parts: Row, progress: Progress) -> None:
-        parts.online[:] -= len(numbers)
-        parts.updates[0] += len(numbers)
-        progress.best[:] = best
-        if len(numbers):
-            after()
-
-    goal = Goal((0, 0), 1, 1, 1.0, FOR_EVER, 0)
-    return PracticeSession(own, lambda: None, worsens, goal, np.random.default_rng(0), 1), best
+    return session_of(own, after=after, by=-1, best=best), best
 
 
 class Steps:

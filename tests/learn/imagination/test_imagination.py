@@ -8,7 +8,6 @@ import pytest
 
 from mc_nested.arena.action import Action
 from mc_nested.arena.env import ArenaEnv
-from mc_nested.arrays import Arrays
 from mc_nested.learn.agents import AGENT_SPECS, Agent, AgentSpec
 from mc_nested.learn.imagination.beliefs import Belief
 from mc_nested.learn.imagination.first_tries import FIRST_TRIES
@@ -17,6 +16,7 @@ from mc_nested.learn.learnt_game import imagination_of as learnt_games_of
 from mc_nested.learn.preset import Preset
 from sim.grid import GridGame
 from tests.learn.imagination.made_games import BENT, SMALL, TRUE_MOVES, TRUE_PLACES, TWO, assert_rules
+from tests.learn.made_trainings import copied
 
 NESTED, HIERARCHICAL = AGENT_SPECS["nested"], AGENT_SPECS["hierarchical"]
 BUILT = [Action.FD, Action.R, Action.FD]
@@ -54,10 +54,6 @@ def at_random(imagination: Imagination, episodes: int, run: int = 0, runs: int =
     random = np.random.default_rng(seed)
     for episode in range(episodes):
         play(imagination, random.integers(0, 8, BENT.step_limit).tolist(), run, runs, episode % 2)
-
-
-def copied(arrays: Arrays) -> Arrays:
-    return {name: kept.copy() for name, kept in arrays.items()}
 
 
 def test_a_run_learns_the_rules_and_the_design_from_what_it_saw_alone() -> None:

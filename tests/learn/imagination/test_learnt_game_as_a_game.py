@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 from mc_nested.arena.action import Action, Cell
 from mc_nested.arena.builder import build
-from mc_nested.arena.game import Game, Outcome, PlayLog, Resumable
+from mc_nested.arena.game import Game, Outcome
 from mc_nested.arena.scenario import Scenario
 from mc_nested.arena.scenario_file import load_scenario
 from mc_nested.learn.imagination.arena_step import NOWHERE, ImaginedArena, cell_at, imagined_arena, index_of, step
@@ -15,12 +15,13 @@ from mc_nested.learn.imagination.beliefs import believe
 from mc_nested.learn.imagination.learnt_rules import learn_rules
 from sim.grid import GridGame
 from tests.arena.game_contract import BUMPS, check_game
+from tests.learn.imagination import made_games
 from tests.learn.imagination.made_games import BENT, TRUE_MOVES, TRUE_PLACES, MadeUpGame, Slipping, seen_at_random
 
 LINE = load_scenario("line")
 
 
-class ImaginedGame:
+class ImaginedGame(made_games.Plain):
     """A Game that does what was learnt."""
 
     def __init__(self, arena: ImaginedArena, start: Cell) -> None:
@@ -28,14 +29,6 @@ class ImaginedGame:
         self._start = index_of(start, arena)
         self._position = self._start
         self._solid = arena.empty.copy()
-
-    @property
-    def resumable(self) -> Resumable | None:
-        return None
-
-    @property
-    def log(self) -> PlayLog | None:
-        return None
 
     def reset(self, material: int) -> Cell:  # noqa: ARG002 - what was learnt is the same for every material
         self._position = self._start

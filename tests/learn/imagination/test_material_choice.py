@@ -16,8 +16,8 @@ def brought(*extras: tuple[int, float]) -> Float64s:
     return np.array(extras, dtype=np.float64).reshape(len(extras), 2)
 
 
-def main_of(runs: int, seed: int = 0) -> Learner:
-    main = Agent(AGENT_SPECS["nested"], [BENT] * runs, SMALL, seed).main
+def main_of(runs: int) -> Learner:
+    main = Agent(AGENT_SPECS["nested"], [BENT] * runs, SMALL, 0).main
     assert main is not None
     return main
 

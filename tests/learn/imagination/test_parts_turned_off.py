@@ -11,6 +11,7 @@ from mc_nested.learn.preset import Preset, load_preset
 from mc_nested.learn.trainer import Trainer
 from sim.grid import GridVectorEnv
 from tests.learn.made_experiments import BAR
+from tests.learn.made_trainings import finish
 
 LANDS = (0, 1)
 SIZE, BLOCKS = 5, 3
@@ -54,9 +55,7 @@ def live_with(updates: int = 400, **changes: object) -> Preset:
 
 def trained(preset: Preset, scenario: Scenario = BAR) -> Agent:
     agent = Agent(AGENT_SPECS["nested"], [scenario], preset, seed=1)
-    trainer = Trainer(GridVectorEnv([scenario]), [scenario], agent, preset, seed=1)
-    while not trainer.finished:
-        trainer.tick()
+    finish(Trainer(GridVectorEnv([scenario]), [scenario], agent, preset, seed=1))
     return agent
 
 

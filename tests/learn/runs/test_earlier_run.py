@@ -99,14 +99,9 @@ def test_other_materials_are_tried_anew(files: Path, tmp_path: Path) -> None:
     assert trainer.imagination.known_arena(0).known_to_pay == SMALL.blocks
 
 
-@pytest.fixture
-def trained(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    out = tmp_path_factory.mktemp("runs") / "run"
-    assert run(*TRAIN, "--out", out) == 0
-    return out
-
-
-def test_a_training_without_an_imagination_gives_its_policy_as_before(trained: Path, tmp_path: Path) -> None:
+def test_a_training_without_an_imagination_gives_its_policy_as_before(tmp_path: Path) -> None:
+    trained = tmp_path / "run"
+    assert run(*TRAIN, "--out", trained) == 0
     assert run("train", "--episodes", "2", "--from", trained, "--out", tmp_path / "on") == 0
     assert [row["episode"] for row in table(tmp_path / "on" / "evaluations.csv")] == ["0", "2"]
     assert earlier_run(trained, RunFolder.open(tmp_path / "on")).game is None

@@ -1,6 +1,5 @@
 """A training's folder: what it holds, that old ones open, and what a disk that refuses leaves."""
 
-import csv
 import json
 import re
 from collections.abc import Callable
@@ -9,7 +8,6 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from mc_nested.arena.scenario_file import table_of
 from mc_nested.arrays import Arrays
 from mc_nested.errors import PresetError, RunError
 from mc_nested.learn.episode_log import EpisodeRow, EvaluationRow
@@ -18,22 +16,15 @@ from mc_nested.learn.runs.run_folder import RunFolder
 from mc_nested.learn.runs.summary import summarise
 from mc_nested.learn.trainer import Trainer
 from sim.grid import GridVectorEnv
-from tests.learn.made_experiments import DOT, small_preset
+from tests.cli.running import table
+from tests.full_disk import full_disk
+from tests.learn.made_experiments import run_config, small_preset
+from tests.learn.made_trainings import finish
 from tests.learn.runs.changed_arrays import change_arrays
 
 
 def config_of(trials: int = 2, profile: str | None = None) -> RunConfig:
-    return RunConfig(
-        agent="nested",
-        backend="sim",
-        profile=profile,
-        trials=trials,
-        seed=4,
-        stop_at_optimum=False,
-        preset_name="small",
-        preset=small_preset(10),
-        scenario=table_of(DOT),
-    )
+    return run_config(profile=profile, trials=trials, seed=4, preset=small_preset(10))
 
 
 def trainer_in(folder: RunFolder) -> Trainer:
@@ -81,15 +72,12 @@ def test_an_unfinished_training_has_no_final_scores_and_a_finished_one_has_every
     early = folder.save(trainer, 1.5, {"live": {}})
     assert (early["final_scores"], early["live"]) == ([None, None], {})
     assert not folder.only_begun
-    while not trainer.finished:
-        trainer.tick()
-    summary = folder.save(trainer, 2.5)
+    summary = folder.save(finish(trainer), 2.5)
     assert json.loads((tmp_path / "summary.json").read_text("utf-8")) == summary
     assert folder.wall_s_so_far() == 2.5
     assert summary["episodes_done"] == [10, 10]
     assert summary["final_scores"] == trainer.policy_scores.tolist()
-    with (tmp_path / "episodes.csv").open(newline="") as file:
-        rows = list(csv.DictReader(file))
+    rows = table(tmp_path / "episodes.csv")
     assert len(rows) == 20
     assert sum(int(row["steps"]) for row in rows) == summary["env_steps"]
 
@@ -116,9 +104,7 @@ def test_the_kept_policies_are_those_of_the_checkpoint(tmp_path: Path) -> None:
     folder = begun(tmp_path)
     with pytest.raises(RunError, match=f"nothing is trained yet: .* --resume {re.escape(str(tmp_path))}$"):
         folder.policies()
-    trainer = trainer_in(folder)
-    while not trainer.finished:
-        trainer.tick()
+    trainer = finish(trainer_in(folder))
     folder.save(trainer, 1.0)
     found = RunFolder.open(tmp_path).policies()
     assert {name: (array.dtype, array.tobytes()) for name, array in found.items()} == {
@@ -129,9 +115,6 @@ def test_the_kept_policies_are_those_of_the_checkpoint(tmp_path: Path) -> None:
 def test_a_disk_that_refuses_is_one_line_and_leaves_nothing_half_begun(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    def full_disk(_: int) -> None:
-        raise OSError(28, "No space left on device")
-
     folder = RunFolder.new(tmp_path / "run", config_of())
     monkeypatch.setattr("os.fsync", full_disk)
     with pytest.raises(RunError, match="make room and begin again"):

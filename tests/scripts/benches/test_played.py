@@ -1,6 +1,7 @@
 """Random actions against a live game: which are drawn, and what their counts hold against a client's world."""
 
 import dataclasses
+from collections.abc import Callable
 
 import numpy as np
 import pytest
@@ -33,9 +34,11 @@ LINE = load_scenario("line")
 SCENARIO = dataclasses.replace(load_scenario("diamond"), step_limit=5)
 
 
-def played(client: VirtualClient, truth: WorldTruth, arena: Arena, actions: int) -> PlayCounts:
+def played(truth: Callable[[VirtualClient, Arena], WorldTruth], actions: int) -> PlayCounts:
+    client = VirtualClient(seed=1)
+    arena = Arena.around((-20, client.realm.world.floor, 31), "south")
     with live_game(client, SCENARIO, arena) as game:
-        return play_in(game, truth, SCENARIO, range(actions), np.random.default_rng(0))
+        return play_in(game, truth(client, arena), SCENARIO, range(actions), np.random.default_rng(0))
 
 
 class Mistaken(ClientTruth):
@@ -52,9 +55,7 @@ class Mistaken(ClientTruth):
 
 
 def test_a_play_that_goes_as_it_should_has_nothing_wrong() -> None:
-    client = VirtualClient(seed=1)
-    arena = Arena.around((-20, client.realm.world.floor, 31), "south")
-    counts = played(client, ClientTruth(client, arena), arena, 12)
+    counts = played(ClientTruth, 12)
     assert counts.is_right
     assert (counts.actions, counts.failed_actions) == (12, 0)
     assert len(counts.moves_s) + len(counts.placings_s) == 12
@@ -63,9 +64,7 @@ def test_a_play_that_goes_as_it_should_has_nothing_wrong() -> None:
 
 
 def test_each_difference_from_the_world_is_counted() -> None:
-    client = VirtualClient(seed=1)
-    arena = Arena.around((-20, client.realm.world.floor, 31), "south")
-    counts = played(client, Mistaken(client, arena), arena, 12)
+    counts = played(Mistaken, 12)
     assert (counts.wrong_cells, counts.wrong_blocks) == (5, 3)
 
 
@@ -84,9 +83,7 @@ class Pausing(ClientTruth):
 
 
 def test_an_action_that_fails_is_counted_and_begins_a_new_episode() -> None:
-    client = VirtualClient(seed=1)
-    arena = Arena.around((-20, client.realm.world.floor, 31), "south")
-    counts = played(client, Pausing(client, arena), arena, 20)
+    counts = played(Pausing, 20)
     assert counts.failed_actions == 1
     assert len(counts.moves_s) + len(counts.placings_s) == 19
     assert counts.is_right

@@ -19,7 +19,7 @@ PAPER = load_preset("paper").model_copy(update={"episodes": 360})
 OPTIMUM = 21.0
 
 
-def trial_of(scores: Sequence[float], steps_each: int = 100, updates_each: int = 90) -> list[Evaluated]:
+def trial_of(scores: Sequence[float], steps_each: int = 100) -> list[Evaluated]:
     """Return a trial that was evaluated every 30 episodes, and had spent as much before each as before the others."""
     return [
         Evaluated(
@@ -28,7 +28,7 @@ def trial_of(scores: Sequence[float], steps_each: int = 100, updates_each: int =
             material="stone",
             steps=20,
             trained_steps=steps_each * number,
-            updates=updates_each * number,
+            updates=90 * number,
         )
         for number, score in enumerate(scores, 1)
     ]

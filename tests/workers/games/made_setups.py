@@ -1,4 +1,4 @@
-"""An order of a moment's play, and a plan for it."""
+"""A game's setup for a moment's play, and a trainer for it."""
 
 from mc_nested.learn.agents import AGENT_SPECS, Agent
 from mc_nested.learn.games.games_trainer import GamesTrainer
@@ -9,6 +9,6 @@ from tests.learn.made_experiments import DOT
 SETUP = GameSetup("virtual", DOT, "nested", load_preset("model-based"), seed=3)
 
 
-def new_trainer(setup: GameSetup = SETUP, *, stop_at_optimum: bool = True) -> GamesTrainer:
-    agent = Agent(AGENT_SPECS[setup.agent], [setup.scenario], setup.preset, setup.seed)
-    return GamesTrainer(setup.scenario, agent, setup.preset, setup.seed, stop_at_optimum)
+def new_trainer() -> GamesTrainer:
+    agent = Agent(AGENT_SPECS[SETUP.agent], [DOT], SETUP.preset, SETUP.seed)
+    return GamesTrainer(DOT, agent, SETUP.preset, SETUP.seed, stop_at_optimum=True)

@@ -90,6 +90,13 @@ def next_request(mailbox: Mailbox) -> Request:
     return request
 
 
+def first_request(games: DaskGames, mailbox: Mailbox) -> Request:
+    """Return what the game asks for that joins and is asked whether it is ready."""
+    assert until(games, 1) == [Joined("one")]
+    games.ask("one", None)
+    return next_request(mailbox)
+
+
 def listening() -> set[tuple[str, int]]:
     """Return the addresses and ports on which this process listens."""
     psutil = pytest.importorskip("psutil")
@@ -135,9 +142,7 @@ def test_a_game_whose_network_is_gone_joins_again_and_breaks_off_what_it_played(
     proxy = Proxy(address.url)
     said: list[str] = []
     with DaskGames(client, SETUP) as games, GameWorker(SchedulerAddress(proxy.address, None), "one", said.append):
-        assert until(games, 1) == [Joined("one")]
-        games.ask("one", None)
-        request = next_request(mailbox)
+        request = first_request(games, mailbox)
         proxy.cut()
         assert until(games, 1) == [Left("one")]
         until_so(lambda: not request.is_wanted())
@@ -153,10 +158,7 @@ def test_an_answer_of_a_game_that_has_left_since_counts_and_is_told_first(
 ) -> None:
     with DaskGames(client, SETUP) as games:
         with GameWorker(address, "one", quiet):
-            assert until(games, 1) == [Joined("one")]
-            games.ask("one", None)
-            request = next_request(mailbox)
-            request.answer.set_result(GameAnswer())
+            first_request(games, mailbox).answer.set_result(GameAnswer())
         assert games.events(PATIENCE_S) == [Answered("one", GameAnswer())]
         games.ask("one", None)
         assert games.events(1.0) == [Left("one")]
@@ -172,9 +174,7 @@ def test_a_learner_whose_network_was_gone_asks_its_games_anew(
         stack.enter_context(GameWorker(address, "one", quiet))
         client = stack.enter_context(connected(SchedulerAddress(proxy.address, None)))
         games = stack.enter_context(DaskGames(client, SETUP))
-        assert until(games, 1) == [Joined("one")]
-        games.ask("one", None)
-        request = next_request(mailbox)
+        request = first_request(games, mailbox)
         before = client.scheduler_comm
         proxy.cut()
         if not looks:  # and in the meantime Dask has connected it again
@@ -197,9 +197,7 @@ def test_an_episode_that_came_back_before_the_scheduler_was_lost_counts(
         client = stack.enter_context(connected(address))
         stack.enter_context(GameWorker(address, "one", quiet))
         games = stack.enter_context(DaskGames(client, SETUP))
-        assert until(games, 1) == [Joined("one")]
-        games.ask("one", None)
-        next_request(mailbox).answer.set_result(GameAnswer())
+        first_request(games, mailbox).answer.set_result(GameAnswer())
         until_so(games._asked["one"].done)
         killed.close()
         until_so(lambda: bool(client.status == "closed"))
@@ -216,9 +214,7 @@ def test_an_answer_that_cannot_be_fetched_is_told_once(
     monkeypatch.setattr(distributed, "Worker", partial(distributed.Worker, contact_address=nobody))
     with DaskGames(client, SETUP) as games:
         with GameWorker(address, "one", quiet):
-            assert until(games, 1) == [Joined("one")]
-            games.ask("one", None)
-            next_request(mailbox).answer.set_result(GameAnswer())
+            first_request(games, mailbox).answer.set_result(GameAnswer())
             assert until(games, 1) == [Unreachable("one", nobody)]
             assert games.events(0.5) == []
         assert until(games, 1) == [Left("one")]
@@ -230,9 +226,7 @@ def test_a_learner_that_is_done_wants_no_answer_any_more(
 ) -> None:
     with GameWorker(address, "one", quiet):
         with DaskGames(client, SETUP) as games:
-            assert until(games, 1) == [Joined("one")]
-            games.ask("one", None)
-            request = next_request(mailbox)
+            request = first_request(games, mailbox)
         until_so(lambda: not request.is_wanted())
         request.answer.set_result(GameAnswer())
 
