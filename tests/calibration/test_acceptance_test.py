@@ -29,7 +29,7 @@ def profile_of(client: VirtualClient, font: Path) -> Profile:
     return Profile(game=version, arena=arena_of(client), screen=ScreenTable(font=str(font)))
 
 
-def test_the_acceptance_tests_actions_are_the_eight_and_fill_the_design_by_the_rules() -> None:
+def test_acceptance_test_uses_all_eight_actions_and_fills_its_design_by_the_rules() -> None:
     assert sorted(ACTIONS) == list(Action)
     cell, placed = SCENARIO.start, set[Cell]()
     for action in ACTIONS:
@@ -43,7 +43,7 @@ def test_the_acceptance_tests_actions_are_the_eight_and_fill_the_design_by_the_r
 
 
 @pytest.mark.parametrize("seed", range(12))
-def test_where_one_click_goes_on_placing_the_option_to_switch_off_is_named(seed: int, font: Path) -> None:
+def test_acceptance_test_names_the_use_item_option_if_use_is_toggled(seed: int, font: Path) -> None:
     client = VirtualClient(version="26.1", seed=seed, options=GameOptions(toggle_use=True))
     with pytest.raises(LiveError, match=r"Options > Controls > Use Item/Place Block"):
         run_acceptance_test(context_over(client), profile_of(client, font))
@@ -81,7 +81,7 @@ class Witness:
         return self._client.display.grab(region)
 
 
-def test_the_blocks_are_truly_there_before_they_are_cleared(font: Path) -> None:
+def test_acceptance_test_really_builds_its_design_before_clearing_it(font: Path) -> None:
     client = VirtualClient()
     profile = profile_of(client, font)
     witness = Witness(client, profile.marked_arena())
@@ -99,7 +99,7 @@ def test_the_blocks_are_truly_there_before_they_are_cleared(font: Path) -> None:
         {"blocks": BlocksTable(shown_prefix="")},
     ],
 )
-def test_a_wrong_profile_fails(wrong: dict[str, object], font: Path) -> None:
+def test_acceptance_test_fails_with_a_wrong_profile(wrong: dict[str, object], font: Path) -> None:
     client = VirtualClient()
     with pytest.raises(LiveError):
         run_acceptance_test(context_over(client), profile_of(client, font).model_copy(update=wrong))

@@ -118,7 +118,9 @@ def run(
     )
 
 
-def test_the_profile_is_written_with_what_it_was_calibrated_on(client: VirtualClient, profile: Path) -> None:
+def test_profile_is_written_with_the_version_window_and_scale_it_was_calibrated_on(
+    client: VirtualClient, profile: Path
+) -> None:
     before = profile.read_bytes()
     result = run(client, profile, CalibrationStep("walk", swapped))
     written = load_profile(profile)
@@ -131,7 +133,7 @@ def test_the_profile_is_written_with_what_it_was_calibrated_on(client: VirtualCl
     assert earlier_path(profile).read_bytes() == before
 
 
-def test_what_was_seen_lies_beside_it(client: VirtualClient, profile: Path) -> None:
+def test_findings_and_checks_are_saved_beside_the_profile(client: VirtualClient, profile: Path) -> None:
     run(client, profile, CalibrationStep("walk", swapped))
     kept = load_findings(profile)
     assert [(step.step, step.lines, step.date) for step in kept.steps] == [("walk", ("swapped",), DAY)]
@@ -140,7 +142,7 @@ def test_what_was_seen_lies_beside_it(client: VirtualClient, profile: Path) -> N
 
 
 @pytest.mark.parametrize("row", sorted(GATES))
-def test_a_row_that_all_the_rest_needs_ends_it_with_its_own_remedy(
+def test_failing_gate_row_ends_the_run_before_any_step_with_its_fix(
     row: CheckName, client: VirtualClient, profile: Path
 ) -> None:
     before = profile.read_bytes()
@@ -155,18 +157,18 @@ def test_a_row_that_all_the_rest_needs_ends_it_with_its_own_remedy(
     assert profile.read_bytes() == before
 
 
-def test_the_gates_are_rows_that_there_are() -> None:
+def test_every_gate_is_the_name_of_a_doctor_row() -> None:
     assert set(CheckName) >= GATES
 
 
-def test_rows_that_a_step_may_mend_do_not_end_it(client: VirtualClient, profile: Path) -> None:
+def test_failing_rows_that_are_not_gates_do_not_end_the_run(client: VirtualClient, profile: Path) -> None:
     rows = [Check(name, "pass" if name in GATES else "fail", "") for name in CheckName]
     run(client, profile, CalibrationStep("walk", swapped), rows=rows)
     assert load_profile(profile).calibrated is not None
 
 
 @pytest.mark.parametrize("last", [broken, stopped])
-def test_however_it_ends_early_the_profile_is_as_it_was_and_no_key_is_down(
+def test_run_that_fails_or_is_interrupted_leaves_the_profile_unchanged_and_no_key_down(
     last: object, client: VirtualClient, profile: Path
 ) -> None:
     before = profile.read_bytes()
@@ -179,7 +181,7 @@ def test_however_it_ends_early_the_profile_is_as_it_was_and_no_key_is_down(
     assert not client.window.down
 
 
-def test_a_game_that_others_may_share_is_refused_before_any_step(
+def test_shared_game_is_refused_before_any_step(
     client: VirtualClient, profile: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(client.display, "title", lambda: "Minecraft 1.20.1 - Multiplayer (LAN)")
@@ -191,7 +193,7 @@ def test_a_game_that_others_may_share_is_refused_before_any_step(
 
 
 @pytest.mark.parametrize("name", ["dir.toml", "file/mine.toml"])
-def test_a_path_that_can_not_be_written_is_reported_before_the_window_is_looked_for(
+def test_unwritable_profile_path_is_reported_before_the_doctor_looks(
     name: str, client: VirtualClient, tmp_path: Path
 ) -> None:
     (tmp_path / "dir.toml").mkdir()
@@ -203,14 +205,16 @@ def test_a_path_that_can_not_be_written_is_reported_before_the_window_is_looked_
     assert progress.begun == []
 
 
-def test_what_can_not_be_kept_for_the_report_does_not_end_it(client: VirtualClient, profile: Path) -> None:
+def test_findings_that_cannot_be_saved_do_not_end_the_run(client: VirtualClient, profile: Path) -> None:
     findings_folder(profile).write_text("no folder", "utf-8")
     run(client, profile, CalibrationStep("walk", swapped))
     assert load_profile(profile).keys.left == "d"
 
 
 @pytest.mark.parametrize("last", [broken, stopped])
-def test_ended_after_the_arena_was_built_it_says_how_to_undo_that_and_can(last: StepFunction, tmp_path: Path) -> None:
+def test_run_that_ends_after_building_the_arena_says_how_to_undo_it_and_undo_works(
+    last: StepFunction, tmp_path: Path
+) -> None:
     client = VirtualClient()
     client.realm.world.put((3, 64, 6), "stone")
     before, file = client.built, tmp_path / "new.toml"
@@ -244,7 +248,7 @@ def test_a_window_resized_midway_is_a_one_line_error(client: VirtualClient, prof
     assert profile.read_bytes() == before
 
 
-def test_a_step_that_was_passed_over_has_no_samples(client: VirtualClient, profile: Path) -> None:
+def test_skipped_step_has_no_samples_in_the_profile(client: VirtualClient, profile: Path) -> None:
     progress = ProgressLog()
     result = run(
         client,
@@ -260,7 +264,7 @@ def test_a_step_that_was_passed_over_has_no_samples(client: VirtualClient, profi
     assert result.run.profile.calibrated.samples == {"walk": 8}
 
 
-def test_menus_in_another_language_cost_their_points_and_are_said_to(profile: Path) -> None:
+def test_menus_in_another_language_skip_the_click_points_with_a_reason(profile: Path) -> None:
     client = started(VirtualClient(words=SPANISH, pitch=40.0))
     clicks = next(step for step in registered_steps() if step.name == "clicks")
     result = run(client, profile, CalibrationStep("walk", swapped), clicks)
@@ -278,7 +282,7 @@ def all_of_it(client: VirtualClient, folder: Path) -> CalibrationResult:
 
 
 @pytest.mark.slow
-def test_a_tested_profile_is_made_unattended(tmp_path: Path) -> None:
+def test_whole_calibration_runs_unattended_in_less_than_five_minutes(tmp_path: Path) -> None:
     client = VirtualClient(seed=5, version="1.21.9", size=(1000, 700), scale=0, pitch=35.0, yaw=-86.0, swaps_sides=True)
     began = client.clock.now()
     result = all_of_it(client, tmp_path)
@@ -337,7 +341,9 @@ class Troublemaker(ProgressLog):
         ),
     ],
 )
-def test_whatever_happens_midway_nothing_is_written_and_no_key_stays_down(step: str, what: str, tmp_path: Path) -> None:
+def test_ctrl_c_another_window_or_a_resize_midway_writes_nothing_and_leaves_no_key_down(
+    step: str, what: str, tmp_path: Path
+) -> None:
     client = VirtualClient(seed=7, pitch=35.0)
     progress = Troublemaker(client, step, what)
     steps, examined = registered_steps(write_font(tmp_path)), doctor_for(client, tmp_path)
@@ -405,7 +411,7 @@ OLD = GameVersion(version="1.12.2")
 SWAPPED = KeysTable(left="d", right="a")
 
 
-def test_each_step_stands_on_what_the_one_before_found() -> None:
+def test_each_step_gets_the_profile_that_the_step_before_returned() -> None:
     room = Room()
     seen: list[Profile] = []
 
@@ -432,7 +438,7 @@ def test_each_step_stands_on_what_the_one_before_found() -> None:
 
 
 @pytest.mark.parametrize("error", [NotConfirmedError("no"), ProfileError("no")])
-def test_a_needed_step_that_fails_ends_the_run_and_names_itself(error: McNestedError) -> None:
+def test_needed_step_that_fails_ends_the_run_and_is_named_in_the_error(error: McNestedError) -> None:
     room = Room()
     with pytest.raises(type(error), match=r"^walk: no \(the profile is as it was\)$"):
         room.run(CalibrationStep("walk", fails(error)), CalibrationStep("never", fails(AssertionError())))
@@ -440,7 +446,7 @@ def test_a_needed_step_that_fails_ends_the_run_and_names_itself(error: McNestedE
 
 
 @pytest.mark.parametrize("error", [LiveError("no such button"), UserError("no such button")])
-def test_a_failed_optional_step_is_skipped_and_the_world_found_again(error: McNestedError) -> None:
+def test_failed_optional_step_is_skipped_and_the_run_recovers_the_world(error: McNestedError) -> None:
     room = Room()
     result = room.run(
         CalibrationStep("game", sets(game=OLD)),
@@ -455,7 +461,7 @@ def test_a_failed_optional_step_is_skipped_and_the_world_found_again(error: McNe
 
 
 @pytest.mark.parametrize("error", [NotInFrontError("behind"), StoppedError("the panic key was pressed")])
-def test_losing_the_game_ends_the_run_in_any_step(error: McNestedError) -> None:
+def test_losing_the_game_ends_the_run_even_in_an_optional_step(error: McNestedError) -> None:
     with pytest.raises(type(error), match="clicks: "):
         Room().run(
             CalibrationStep("clicks", fails(error), is_needed=False), CalibrationStep("never", fails(AssertionError()))

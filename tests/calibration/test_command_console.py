@@ -31,7 +31,7 @@ def test_a_command_takes_effect_and_its_effect_is_seen(client: VirtualClient, co
     assert not client.window.down
 
 
-def test_clearing_leaves_the_debug_screen_on(client: VirtualClient, console: CommandConsole) -> None:
+def test_clearing_the_chat_leaves_the_debug_screen_on(client: VirtualClient, console: CommandConsole) -> None:
     client.game.chat.say("half a screen of words", client.game.ticks)
     began = client.clock.now()
     console.clear()
@@ -80,7 +80,9 @@ class LateConsole(CommandConsole):
         self._chat = chat
 
 
-def test_a_line_that_is_not_typed_is_begun_again_four_times_at_most(client: VirtualClient, tmp_path: Path) -> None:
+def test_command_that_is_not_typed_to_its_end_is_tried_four_times_at_most(
+    client: VirtualClient, tmp_path: Path
+) -> None:
     late, never = LateChat(TRIES - 1), LateChat(TRIES)
     LateConsole(client, profile_in(tmp_path), late).send("/time set 6000")
     assert late.tries == TRIES == 4
@@ -89,7 +91,9 @@ def test_a_line_that_is_not_typed_is_begun_again_four_times_at_most(client: Virt
     assert never.tries == TRIES
 
 
-def test_in_a_chat_that_is_not_read_nothing_is_begun_again(client: VirtualClient, tmp_path: Path) -> None:
+def test_command_is_typed_only_once_if_the_profile_does_not_read_the_chat(
+    client: VirtualClient, tmp_path: Path
+) -> None:
     profile = profile_in(tmp_path)
     blind = profile.model_copy(update={"input": profile.input.model_copy(update={"reads_chat": False})})
     chat = LateChat(1)
@@ -98,7 +102,7 @@ def test_in_a_chat_that_is_not_read_nothing_is_begun_again(client: VirtualClient
     assert chat.tries == 1
 
 
-def test_a_chat_that_is_not_read_is_never_cleared(client: VirtualClient, tmp_path: Path) -> None:
+def test_chat_is_never_cleared_if_the_profile_does_not_read_it(client: VirtualClient, tmp_path: Path) -> None:
     profile = profile_in(tmp_path)
     blind = profile.model_copy(update={"input": profile.input.model_copy(update={"reads_chat": False})})
     console = CommandConsole(context_over(client).connection.for_profile(blind), blind)
@@ -107,9 +111,7 @@ def test_a_chat_that_is_not_read_is_never_cleared(client: VirtualClient, tmp_pat
     assert len(client.game.chat.lines(client.game.ticks)) == 4
 
 
-def test_what_does_not_happen_is_watched_for_as_long_as_was_said(
-    client: VirtualClient, console: CommandConsole
-) -> None:
+def test_watch_gives_up_after_the_given_time(client: VirtualClient, console: CommandConsole) -> None:
     began = client.clock.now()
     assert console.watch(lambda seen: seen.pitch == 89.0, 0.5) is None
     assert 0.5 <= client.clock.now() - began < 0.7

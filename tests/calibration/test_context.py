@@ -31,7 +31,7 @@ def test_answering_no_or_having_the_game_in_front_needs_no_wait(answer: bool, is
     assert client.clock.now() == before
 
 
-def test_a_person_who_stays_away_is_an_error() -> None:
+def test_game_that_stays_in_the_background_after_a_yes_is_an_error() -> None:
     client = started(VirtualClient())
     client.set_front(is_in_front=False)
     with pytest.raises(NotInFrontError):

@@ -28,7 +28,7 @@ def profile(tmp_path_factory: pytest.TempPathFactory) -> Profile:
     st.floats(-90, 90),
     st.sampled_from(["1.13.2", "1.16.5", "1.20.1", "1.21.11", "26.1"]),
 )
-def test_the_two_agree_wherever_the_player_stands_and_looks(
+def test_f3_c_agrees_with_the_reader_for_any_position_and_view(
     profile: Profile, x: float, z: float, yaw: float, pitch: float, version: str
 ) -> None:
     client = started(VirtualClient(version=version, feet=(x, 64.0, z), yaw=yaw, pitch=pitch))
@@ -41,7 +41,7 @@ def test_the_two_agree_wherever_the_player_stands_and_looks(
     assert client.game.has_f3
 
 
-def test_the_keys_are_up_again_within_two_ticks(profile: Profile) -> None:
+def test_f3_and_c_are_up_again_within_two_ticks(profile: Profile) -> None:
     client = started(VirtualClient())
     downs: dict[str, float] = {}
     longest: list[float] = []
@@ -62,7 +62,7 @@ def test_the_keys_are_up_again_within_two_ticks(profile: Profile) -> None:
     assert 0.05 < max(longest) <= 0.1
 
 
-def test_1_12_has_no_such_key_and_nothing_is_pressed(profile: Profile) -> None:
+def test_cross_check_in_1_12_compares_nothing_and_presses_nothing(profile: Profile) -> None:
     client = started(VirtualClient(version="1.12.2"))
     client.clipboard.write("mine")
     found = cross_check(context_over(client), profile)
@@ -72,7 +72,7 @@ def test_1_12_has_no_such_key_and_nothing_is_pressed(profile: Profile) -> None:
 
 
 @pytest.mark.parametrize("lost", range(1, 7))
-def test_keys_that_get_lost_leave_nothing_down_and_the_debug_screen_on(profile: Profile, lost: int) -> None:
+def test_lost_key_events_leave_no_key_down_and_the_debug_screen_on(profile: Profile, lost: int) -> None:
     client = started(VirtualClient())
     client.clipboard.write("mine")
     context = context_over(client)
@@ -84,7 +84,7 @@ def test_keys_that_get_lost_leave_nothing_down_and_the_debug_screen_on(profile: 
     assert not client.game.keys.physical & {"f3", "c"}, "held for ten seconds, they would end the game"
 
 
-def test_releases_that_get_lost_are_made_again(profile: Profile) -> None:
+def test_lost_key_releases_are_repeated(profile: Profile) -> None:
     client = started(VirtualClient())
     lost: list[str] = []
     release = client.keyboard.release
@@ -122,7 +122,7 @@ def with_clipboard(client: VirtualClient, clipboard: Liar) -> CalibrationContext
     return dataclasses.replace(context, connection=GameConnection(devices, context.controller))
 
 
-def test_a_reading_that_the_game_does_not_confirm_is_an_error_and_the_clipboard_put_back(profile: Profile) -> None:
+def test_reading_that_f3_c_contradicts_is_an_error_and_the_clipboard_is_restored(profile: Profile) -> None:
     liar = Liar()
     with pytest.raises(UnreadableError, match=r"reads 0\.500 .* F3\+C says \(1\.5, .*calibrate font --font"):
         cross_check(with_clipboard(started(VirtualClient()), liar), profile)
@@ -136,7 +136,7 @@ class Picture(Liar):
         raise ClipboardError("the clipboard holds something else than text")
 
 
-def test_a_picture_on_the_clipboard_is_left_there_and_nothing_is_pressed(profile: Profile) -> None:
+def test_picture_on_the_clipboard_is_left_there_and_nothing_is_pressed(profile: Profile) -> None:
     client, clipboard = started(VirtualClient()), Picture()
     with pytest.raises(ClipboardError, match="something else"):
         cross_check(with_clipboard(client, clipboard), profile)
@@ -144,7 +144,7 @@ def test_a_picture_on_the_clipboard_is_left_there_and_nothing_is_pressed(profile
     assert client.game.chat.lines(client.game.ticks) == ()
 
 
-def test_a_game_that_copies_nothing_is_reported_and_the_clipboard_put_back(
+def test_game_that_copies_nothing_is_an_error_and_the_clipboard_is_restored(
     profile: Profile, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     client = started(VirtualClient())
@@ -155,7 +155,9 @@ def test_a_game_that_copies_nothing_is_reported_and_the_clipboard_put_back(
     assert client.clipboard.read() == "mine"
 
 
-def test_what_somebody_else_copies_meanwhile_is_theirs(profile: Profile, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_text_that_somebody_else_copies_meanwhile_stays_on_the_clipboard(
+    profile: Profile, monkeypatch: pytest.MonkeyPatch
+) -> None:
     client = started(VirtualClient())
     client.clipboard.write("mine")
     monkeypatch.setattr(client.controls, "_write_clipboard", lambda _: client.clipboard.write("theirs"))
@@ -164,7 +166,7 @@ def test_what_somebody_else_copies_meanwhile_is_theirs(profile: Profile, monkeyp
     assert client.clipboard.read() == "theirs"
 
 
-def test_a_player_who_is_moved_meanwhile_is_reported(profile: Profile) -> None:
+def test_player_who_is_moved_during_the_cross_check_is_an_error(profile: Profile) -> None:
     client = started(VirtualClient())
     context = context_over(client)
     write = client.controls._write_clipboard
@@ -179,7 +181,7 @@ def test_a_player_who_is_moved_meanwhile_is_reported(profile: Profile) -> None:
 
 
 @pytest.mark.parametrize("after_s", [0.1, 0.2, 0.25, 0.3, 0.35])
-def test_ctrl_c_at_any_moment_puts_the_clipboard_back_and_lets_go(profile: Profile, after_s: float) -> None:
+def test_ctrl_c_at_any_moment_restores_the_clipboard_and_releases_the_keys(profile: Profile, after_s: float) -> None:
     client = started(VirtualClient())
     client.clipboard.write("mine")
 

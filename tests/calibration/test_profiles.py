@@ -57,14 +57,14 @@ def names(folder: Path) -> set[str]:
     return {path.name for path in folder.iterdir()}
 
 
-def test_every_file_that_calibrations_leave_belongs_to_its_profile(folder: Path) -> None:
+def test_files_of_a_profile_are_all_its_calibration_files_and_no_other_profiles(folder: Path) -> None:
     old = {"laptop-old.toml", "laptop-old-calibration.html"}
     assert {path.name for path in files_of(folder / "laptop.toml")} == names(folder) - old
     assert files_of(folder / "laptop.toml")[-1] == folder / "laptop.toml"
     assert {path.name for path in files_of(folder / "laptop-old.toml")} == old
 
 
-def test_a_profile_is_known_by_its_name(folder: Path) -> None:
+def test_profile_is_found_by_its_name_only(folder: Path) -> None:
     (folder / "folder.toml").mkdir()
     assert [path.stem for path in named_profiles()] == ["laptop", "laptop-old"]
     assert named_profile("laptop") == folder / "laptop.toml"
@@ -94,7 +94,7 @@ def test_a_new_name_that_is_a_path_is_refused(folder: Path, name: str) -> None:
         rename_profile(folder / "laptop.toml", name)
 
 
-def test_a_new_name_with_files_left_over_is_refused(folder: Path) -> None:
+def test_new_name_whose_files_exist_already_is_refused(folder: Path) -> None:
     (folder / "pc-calibration").mkdir()
     before = names(folder)
     with pytest.raises(ProfileError, match="pc-calibration: exists already: choose another name"):
@@ -140,7 +140,7 @@ def test_a_file_that_can_not_be_deleted_is_a_one_line_error_and_the_profile_stay
     assert (folder / "laptop.toml").exists()
 
 
-def test_only_a_profile_or_note_with_a_copy_holds_a_copy(folder: Path) -> None:
+def test_profile_holds_a_copy_only_if_it_or_its_note_has_one(folder: Path) -> None:
     old = folder / "laptop-old.toml"
     assert holds_a_copy(folder / "laptop.toml"), "there is a note beside it"
     assert not holds_a_copy(old)
@@ -162,7 +162,7 @@ def facts(tmp_path: Path, profile: Profile, window: Fingerprint | None = None) -
     return facts_of(tmp_path / "laptop.toml", lambda title: window if title == profile.window.title else None)
 
 
-def test_a_profile_says_what_it_was_calibrated_on_and_that_it_fits_that(tmp_path: Path) -> None:
+def test_profile_facts_give_version_window_scales_and_arena_and_that_the_profile_fits(tmp_path: Path) -> None:
     profile = Profile(arena=ARENA, calibrated=CALIBRATED)
     assert facts(tmp_path, profile, Fingerprint("Minecraft 1.20.1", (854, 480))) == ProfileFacts(
         name="laptop",
@@ -185,7 +185,7 @@ def test_a_profile_says_what_it_was_calibrated_on_and_that_it_fits_that(tmp_path
         (None, None, "no window of the game is open"),
     ],
 )
-def test_what_does_not_fit_or_is_not_known_is_said(
+def test_profile_facts_say_why_the_profile_does_not_fit_or_that_no_window_is_open(
     window: Fingerprint | None, fits: bool | None, why: str, tmp_path: Path
 ) -> None:
     found = facts(tmp_path, Profile(calibrated=CALIBRATED), window)
@@ -193,14 +193,14 @@ def test_what_does_not_fit_or_is_not_known_is_said(
     assert why in (found.why or "")
 
 
-def test_a_profile_marked_by_hand_has_no_known_game_to_fit(tmp_path: Path) -> None:
+def test_profile_facts_leave_open_whether_a_profile_without_a_whole_calibration_fits(tmp_path: Path) -> None:
     found = facts(tmp_path, Profile(arena=ARENA), Fingerprint("Minecraft 1.20.1", (854, 480)))
     assert found.fits is None
     assert found.why == "it was never calibrated as a whole: mc-nested calibrate all --profile laptop"
     assert (found.version, found.window, found.date) == ("1.21", None, None)
 
 
-def test_a_font_that_is_gone_is_said_without_any_window(tmp_path: Path) -> None:
+def test_missing_font_is_reported_even_without_a_window(tmp_path: Path) -> None:
     jar = tmp_path / "1.20.1.jar"
     profile = Profile(screen=ScreenTable(font=str(jar)), calibrated=CALIBRATED)
     found = facts(tmp_path, profile)

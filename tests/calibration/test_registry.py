@@ -20,11 +20,11 @@ def step(steps: list[CalibrationStep], name: str) -> CalibrationStep:
     return found
 
 
-def test_each_step_comes_after_those_whose_findings_it_needs() -> None:
+def test_steps_are_font_arena_walk_clicks_cross_check_and_proof_in_this_order() -> None:
     assert [step.name for step in registered_steps()] == ["font", "arena", "walk", "clicks", "cross-check", "proof"]
 
 
-def test_only_missing_buttons_and_an_unreachable_clipboard_do_not_end_the_run() -> None:
+def test_only_the_clicks_and_cross_check_steps_may_fail_without_ending_the_run() -> None:
     assert [step.name for step in registered_steps() if not step.is_needed] == ["clicks", "cross-check"]
 
 
@@ -35,11 +35,11 @@ def test_a_cell_outside_the_arena_is_refused_before_anything_is_run(cell: Cell) 
 
 
 @pytest.mark.parametrize("cell", [(0, 0), (14, 14)])
-def test_every_corner_of_the_arena_is_a_cell_to_stand_on(cell: Cell) -> None:
+def test_player_may_stand_on_a_corner_of_the_arena(cell: Cell) -> None:
     assert len(registered_steps(standing=cell)) == 6
 
 
-def test_an_arena_of_another_size_has_other_corners_and_too_large_a_one_is_refused() -> None:
+def test_larger_arena_has_its_own_corners_and_a_size_above_32_is_refused() -> None:
     assert len(registered_steps(size=32, standing=(31, 31))) == 6
     assert len(registered_steps(size=32)) == 6
     with pytest.raises(UserError, match="outside the arena: choose 0 to 31"):
@@ -48,7 +48,7 @@ def test_an_arena_of_another_size_has_other_corners_and_too_large_a_one_is_refus
         registered_steps(size=33)
 
 
-def test_the_arena_step_is_told_the_size(tmp_path: Path) -> None:
+def test_arena_step_builds_an_arena_of_the_given_size(tmp_path: Path) -> None:
     client = started(VirtualClient(pitch=65.0))
     profile = profile_in(tmp_path)
     found = step(registered_steps(size=17), "arena").run(context_over(client), profile)
@@ -56,14 +56,14 @@ def test_the_arena_step_is_told_the_size(tmp_path: Path) -> None:
     assert client.cell(found.profile.marked_arena()) == (8, 0)
 
 
-def test_the_font_step_takes_the_font_that_is_named_and_looks_for_no_other(tmp_path: Path) -> None:
+def test_font_step_takes_the_given_font_and_looks_for_no_other(tmp_path: Path) -> None:
     font = font_file_in(tmp_path)
     steps = registered_steps(font, lambda _: pytest.fail("it looked for fonts"))
     found = step(steps, "font").run(context_over(started(VirtualClient(pitch=65.0))), Profile())
     assert found.profile.screen.font == str(font)
 
 
-def test_the_font_step_looks_where_it_is_told_for_the_version_in_the_title() -> None:
+def test_font_step_asks_its_sources_for_the_version_in_the_window_title() -> None:
     asked: list[str | None] = []
 
     def sources(version: str | None) -> FontSources:

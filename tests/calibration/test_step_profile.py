@@ -19,7 +19,7 @@ from mc_nested.live.profile.tables import KeysTable, Profile
 SWAPPED = Profile(keys=KeysTable(left="d", right="a"))
 
 
-def test_a_profile_that_is_there_is_read_and_else_a_new_one_is_begun(tmp_path: Path) -> None:
+def test_starting_profile_is_the_saved_one_or_a_new_one(tmp_path: Path) -> None:
     file = tmp_path / "folder" / "mine.toml"
     assert starting_profile(file) == (file, Profile())
     assert list((tmp_path / "folder").iterdir()) == []
@@ -49,7 +49,7 @@ def test_the_profile_and_the_pictures_of_its_points_are_written(tmp_path: Path) 
     assert np.array_equal(np.asarray(cv2.imread(str(picture_file(file, "world")))), PICTURE)
 
 
-def test_without_its_picture_a_point_is_not_written(tmp_path: Path) -> None:
+def test_profile_is_not_written_if_a_points_picture_cannot_be(tmp_path: Path) -> None:
     file = tmp_path / "mine.toml"
     picture_file(file, "world").parent.parent.mkdir(parents=True, exist_ok=True)
     picture_file(file, "world").mkdir(parents=True)

@@ -136,7 +136,9 @@ KINDS: tuple[Kind, ...] = (
 
 @pytest.mark.parametrize("kind", KINDS)
 @pytest.mark.parametrize("step", STEPS)
-def test_a_mishap_leaves_a_good_profile_or_the_old_one_and_one_line(step: str, kind: Kind, file: Path) -> None:
+def test_mishap_ends_in_a_good_profile_or_in_a_one_line_error_and_the_old_profile(
+    step: str, kind: Kind, file: Path
+) -> None:
     client, before = client_for(step, seed=3), file.read_bytes()
     client.mishaps.plan(kind, LENGTHS[step] / 3)
     try:

@@ -80,7 +80,7 @@ def undo_in(client: VirtualClient, profile: Profile) -> StepResult:
 
 
 @pytest.mark.parametrize("version", ["1.12.2", "1.13.2", "1.20.1", "1.21.11", "26.3"])
-def test_on_a_free_floor_only_the_border_is_built_and_all_of_it_is_undone(version: str, tmp_path: Path) -> None:
+def test_on_free_flat_ground_only_the_border_is_built_and_undo_removes_it(version: str, tmp_path: Path) -> None:
     client = VirtualClient(version=version, pitch=12.0)
     questions: list[str] = []
     found = built(client, tmp_path, questions)
@@ -107,7 +107,7 @@ def test_on_a_free_floor_only_the_border_is_built_and_all_of_it_is_undone(versio
 
 
 @pytest.mark.parametrize("version", ["1.12.2", "1.20.1"])
-def test_what_stands_there_is_shown_copied_and_put_back(version: str, tmp_path: Path) -> None:
+def test_blocks_in_the_way_are_copied_before_building_and_put_back_by_undo(version: str, tmp_path: Path) -> None:
     client, before = spoiled(version)
     questions: list[str] = []
     found = built(client, tmp_path, questions)
@@ -123,7 +123,7 @@ def test_what_stands_there_is_shown_copied_and_put_back(version: str, tmp_path: 
     assert client.built == before
 
 
-def test_what_is_built_can_be_played_in(tmp_path: Path) -> None:
+def test_live_game_can_be_played_in_a_built_arena(tmp_path: Path) -> None:
     client, _ = spoiled()
     profile = built(client, tmp_path).profile
     arena = profile.marked_arena()
@@ -135,7 +135,7 @@ def test_what_is_built_can_be_played_in(tmp_path: Path) -> None:
     assert {client.realm.world.block_at(arena.block_of(cell)) for cell in ((7, 14), (6, 14))} == {"stone"}
 
 
-def test_a_game_that_can_neither_compare_nor_copy_says_so_and_asks(
+def test_build_asks_with_a_warning_if_the_game_can_neither_compare_nor_copy_blocks(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     for verb in ("execute", "clone", "difficulty"):
@@ -181,7 +181,7 @@ def test_a_larger_arena_is_built_copied_checked_and_undone(
     assert client.built == before
 
 
-def test_what_lies_beyond_15_cells_is_built_to_the_block_in_an_arena_of_20(tmp_path: Path) -> None:
+def test_design_in_the_far_corner_of_a_20_cell_arena_is_built_block_for_block(tmp_path: Path) -> None:
     client = VirtualClient()
     profile = build_in(client, profile_of(client, tmp_path), size=20)
     arena = profile.marked_arena()
@@ -203,7 +203,7 @@ def test_what_lies_beyond_15_cells_is_built_to_the_block_in_an_arena_of_20(tmp_p
     assert client.window.strays == []
 
 
-def test_a_scenario_smaller_than_its_arena_is_played_in_the_arenas_near_left_corner(tmp_path: Path) -> None:
+def test_scenario_smaller_than_the_arena_is_played_in_its_near_left_corner(tmp_path: Path) -> None:
     client = VirtualClient()
     profile = build_in(client, profile_of(client, tmp_path), size=18)
     arena, line = profile.marked_arena(), load_scenario("line")
@@ -226,7 +226,9 @@ def standing_on(client: VirtualClient, arena: Arena) -> set[Cell]:
 
 
 @pytest.mark.parametrize("has_sky", [True, False])
-def test_an_arena_of_another_size_is_not_built_over_one_that_can_be_put_back(has_sky: bool, tmp_path: Path) -> None:
+def test_arena_of_another_size_is_refused_only_while_the_earlier_one_can_be_undone(
+    has_sky: bool, tmp_path: Path
+) -> None:
     client, _ = spoiled()
     if not has_sky:
         client.realm.world.put((0, 128, 5), "glass")
@@ -287,7 +289,7 @@ def no_cheats(client: VirtualClient) -> None:
 @pytest.mark.parametrize(
     ("prepare", "message"), [(far_away, "part of the ground isn't loaded"), (no_cheats, "allow cheats")]
 )
-def test_ground_that_is_not_loaded_or_a_world_without_cheats_is_reported_before_the_question(
+def test_unloaded_ground_or_a_world_without_cheats_is_refused_before_anything_is_built(
     client: VirtualClient, prepare: Callable[[VirtualClient], None], message: str, tmp_path: Path
 ) -> None:
     prepare(client)
@@ -296,7 +298,7 @@ def test_ground_that_is_not_loaded_or_a_world_without_cheats_is_reported_before_
     assert client.built == {}
 
 
-def test_a_copy_that_is_gone_is_not_put_back(client: VirtualClient, tmp_path: Path) -> None:
+def test_undo_is_refused_if_the_copy_is_gone(client: VirtualClient, tmp_path: Path) -> None:
     found = built(client, tmp_path)
     low, high = box_of(HERE)
     client.realm.world.fill((low[0], 127, low[2]), (high[0], 130, high[2]), "air")
@@ -305,7 +307,7 @@ def test_a_copy_that_is_gone_is_not_put_back(client: VirtualClient, tmp_path: Pa
     assert client.realm.world.block_at((0, 63, 5)) == "bedrock"
 
 
-def test_the_verbs_write_what_was_built_and_undone(client: VirtualClient, tmp_path: Path) -> None:
+def test_building_saves_the_arena_in_the_profile_and_undoing_removes_it(client: VirtualClient, tmp_path: Path) -> None:
     file = kept_profile(client, tmp_path)
     calibrate_built_arena(file, context_on(client))
     assert load_profile(file).marked_arena().copied_to == (-8, 127, -1)
@@ -314,7 +316,9 @@ def test_the_verbs_write_what_was_built_and_undone(client: VirtualClient, tmp_pa
     assert load_profile(file).arena is None
 
 
-def test_a_build_that_ends_early_is_undone_from_the_note(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_build_whose_profile_cannot_be_saved_is_undone_from_its_note(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     client, before = spoiled()
     file = kept_profile(client, tmp_path)
     said: list[str] = []
@@ -332,7 +336,7 @@ def test_a_build_that_ends_early_is_undone_from_the_note(tmp_path: Path, monkeyp
     assert not note_path(file).exists()
 
 
-def test_the_note_is_written_before_anything_is_built(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_copy_note_is_written_before_anything_is_built(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     client, before = spoiled()
     file = kept_profile(client, tmp_path)
 
@@ -354,7 +358,7 @@ def left_early(client: VirtualClient, folder: Path) -> tuple[Profile, Path]:
     return profile_of(client, folder), file
 
 
-def test_a_copy_that_was_not_undone_is_kept_by_the_next_try_and_no_profile_is_needed_to_undo(tmp_path: Path) -> None:
+def test_second_build_keeps_the_copy_of_an_unfinished_one_and_undo_needs_no_profile(tmp_path: Path) -> None:
     client, before = spoiled()
     profile, file = left_early(client, tmp_path)
     noted = note_path(file).read_bytes()
@@ -366,7 +370,7 @@ def test_a_copy_that_was_not_undone_is_kept_by_the_next_try_and_no_profile_is_ne
     assert [each.name for each in tmp_path.iterdir()] == ["ascii.png"]
 
 
-def test_an_arena_that_was_left_early_is_not_copied_in_part(client: VirtualClient, tmp_path: Path) -> None:
+def test_building_over_part_of_an_unfinished_arena_is_refused(client: VirtualClient, tmp_path: Path) -> None:
     profile, file = left_early(client, tmp_path)
     after = client.built
     with context_on(client)(profile) as context, pytest.raises(UserError, match="--undo --profile"):
@@ -374,7 +378,7 @@ def test_an_arena_that_was_left_early_is_not_copied_in_part(client: VirtualClien
     assert client.built == after
 
 
-def test_in_another_world_the_note_of_a_copy_is_not_used(tmp_path: Path) -> None:
+def test_copy_note_from_another_world_is_ignored(tmp_path: Path) -> None:
     profile, file = left_early(VirtualClient(), tmp_path)
     client, before = spoiled()
     build_in(client, profile, path=file)
@@ -382,7 +386,7 @@ def test_in_another_world_the_note_of_a_copy_is_not_used(tmp_path: Path) -> None
     assert client.built == before
 
 
-def test_an_earlier_profile_keeps_its_other_arena_when_the_note_is_undone(tmp_path: Path) -> None:
+def test_undoing_from_a_note_keeps_the_profiles_other_arena(tmp_path: Path) -> None:
     client = VirtualClient()
     profile, file = left_early(client, tmp_path)
     elsewhere = Arena.around((500, 70, 500), "east")
@@ -392,7 +396,7 @@ def test_an_earlier_profile_keeps_its_other_arena_when_the_note_is_undone(tmp_pa
     assert load_profile(file).arena == elsewhere
 
 
-def test_a_copy_with_a_hole_in_its_floor_is_put_back(client: VirtualClient, tmp_path: Path) -> None:
+def test_ground_with_a_hole_in_its_floor_is_copied_and_put_back(client: VirtualClient, tmp_path: Path) -> None:
     profile = profile_of(client, tmp_path)
     hole = Arena.around((3, 64, 0), "south").block_of((7, 0))
     client.realm.world.put((hole[0], 63, hole[2]), "air")
@@ -405,7 +409,9 @@ def test_a_copy_with_a_hole_in_its_floor_is_put_back(client: VirtualClient, tmp_
     assert client.built == before
 
 
-def test_what_can_not_be_kept_for_the_report_is_a_warning(client: VirtualClient, tmp_path: Path) -> None:
+def test_findings_that_cannot_be_saved_are_a_warning_and_the_profile_is_written(
+    client: VirtualClient, tmp_path: Path
+) -> None:
     file = kept_profile(client, tmp_path)
     (tmp_path / "mine-calibration").write_text("no folder", "utf-8")
     said: list[str] = []
@@ -434,7 +440,7 @@ def shared(client: VirtualClient, patch: pytest.MonkeyPatch) -> list[str]:
     return pressed_on(client, patch)
 
 
-def test_in_a_game_that_others_may_share_nothing_is_pressed_and_built(
+def test_build_in_a_shared_game_is_refused_before_any_key_is_pressed(
     client: VirtualClient, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     pressed = shared(client, monkeypatch)
@@ -444,7 +450,9 @@ def test_in_a_game_that_others_may_share_nothing_is_pressed_and_built(
     assert client.built == {}
 
 
-def test_in_a_game_that_others_may_share_nothing_is_undone(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_undo_in_a_shared_game_is_refused_unless_a_server_is_allowed(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     client = VirtualClient()
     profile = built(client, tmp_path).profile
     after, pressed = client.built, shared(client, monkeypatch)
@@ -473,7 +481,7 @@ def test_ctrl_c_or_a_closed_window_at_any_time_leaves_keys_up_and_the_profile_as
 
 @pytest.mark.parametrize("after_s", [1.5, 4.0, 7.0])
 @pytest.mark.parametrize("kind", ["lost_focus", "pause", "death"])
-def test_interference_is_a_one_line_error_and_leaves_the_profile_as_it_was(
+def test_lost_focus_pause_or_death_is_a_one_line_error_and_leaves_the_profile_unchanged(
     kind: Kind, after_s: float, tmp_path: Path
 ) -> None:
     client = disturbed(kind, after_s, tmp_path)
@@ -487,7 +495,9 @@ def test_interference_is_a_one_line_error_and_leaves_the_profile_as_it_was(
 
 
 @pytest.mark.parametrize("after_s", [1.5, 4.0, 7.0])
-def test_a_chat_that_is_opened_meanwhile_is_closed_or_is_a_one_line_error(after_s: float, tmp_path: Path) -> None:
+def test_chat_opened_during_the_build_is_closed_or_ends_it_with_a_one_line_error(
+    after_s: float, tmp_path: Path
+) -> None:
     client, file = disturbed("chat", after_s, tmp_path), tmp_path / "mine.toml"
     before = file.read_bytes()
     try:
@@ -517,7 +527,7 @@ def disturbed(kind: Kind, after_s: float, folder: Path) -> VirtualClient:
     return client
 
 
-def test_a_world_without_commands_is_refused_with_the_whole_command_that_marks_it(tmp_path: Path) -> None:
+def test_profile_with_a_world_template_is_refused_with_the_mark_only_command(tmp_path: Path) -> None:
     client = VirtualClient()
     world = WorldTable(folder=str(tmp_path / "arena"), template=str(tmp_path / "template"), name="arena")
     profile = profile_of(client, tmp_path).model_copy(update={"world": world})
@@ -535,7 +545,7 @@ def test_a_world_without_commands_is_refused_with_the_whole_command_that_marks_i
         (30.0, r"^the debug screen names no block, .*: press F3\+F6 in the game, and set looking_at_block_state "),
     ],
 )
-def test_a_debug_screen_that_may_name_no_block_ends_it_before_anything_is_pressed(
+def test_build_is_refused_before_any_key_press_if_the_debug_screen_names_no_block(
     pitch: float, says: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     client = VirtualClient(version="26.3", pitch=pitch, debug_entries=GAME_DEFAULT)
@@ -549,7 +559,7 @@ COPIED = HERE.model_copy(update={"copied_to": (-8, 127, -1)})
 FREE = GroundSurvey(True, True, "grass_block", (-8, 127, -1))
 
 
-def test_free_ground_is_described_whole() -> None:
+def test_question_about_free_ground_describes_floor_border_and_copy() -> None:
     assert build_question(HERE, FREE, None, ("stone", "planks")) == (
         "Build the arena from (-7, 64, 0) to (7, 65, 14), facing south? There is only air. "
         "The floor, grass_block, is flat: it stays. "
@@ -559,7 +569,7 @@ def test_free_ground_is_described_whole() -> None:
     )
 
 
-def test_what_was_seen_in_the_way_is_named_six_blocks_at_most() -> None:
+def test_question_names_at_most_six_blocks_in_the_way() -> None:
     in_the_way = {(x, 64, 3): "dirt" for x in range(8)}
     ground = GroundSurvey(False, False, "ice", (-8, 127, -1), LookAroundResult(in_the_way, 4, 15))
     asked = build_question(HERE, ground, None, ())
@@ -569,13 +579,13 @@ def test_what_was_seen_in_the_way_is_named_six_blocks_at_most() -> None:
     assert "The floor, ice, is not of one block: it is replaced by obsidian." in asked
 
 
-def test_cells_that_were_out_of_sight_are_counted() -> None:
+def test_question_counts_the_cells_out_of_sight() -> None:
     ground = GroundSurvey(None, None, "stone", None, LookAroundResult({}, 9, 10, 5))
     asked = build_question(Arena.around((7, 64, 0), "south", size=32), ground, None, ())
     assert "What stands there is not known (9 of 10 looks saw the floor, 5 more cells are out of sight)." in asked
 
 
-def test_ground_that_is_unknown_is_said_to_be() -> None:
+def test_question_says_so_if_the_ground_is_unknown() -> None:
     asked = build_question(HERE, GroundSurvey(None, None, "sand", None), None, ())
     assert "What stands there is not known." in asked
     assert "may have holes" in asked
@@ -591,7 +601,7 @@ def test_ground_that_is_unknown_is_said_to_be() -> None:
         (HERE, None, False, True),
     ],
 )
-def test_the_copy_of_an_arena_before_is_forgotten_unless_it_is_kept(
+def test_question_says_if_an_earlier_copy_is_forgotten_or_the_build_cannot_be_undone(
     arena: Arena, old: Arena | None, is_forgotten: bool, is_final: bool
 ) -> None:
     asked = build_question(arena, GroundSurvey(True, True, "stone", None), old, ())
@@ -599,12 +609,12 @@ def test_the_copy_of_an_arena_before_is_forgotten_unless_it_is_kept(
     assert ("can't be undone" in asked) == is_final
 
 
-def test_the_hint_is_the_command_that_copies_it_back() -> None:
+def test_undo_hint_is_the_clone_command_that_puts_the_ground_back() -> None:
     assert undo_hint(HERE) == "No copy was kept"
     assert undo_hint(COPIED) == "What stood there comes back with /clone -8 127 -1 8 129 15 -8 63 -1"
 
 
-def test_the_summary_says_what_became_of_floor_and_copy() -> None:
+def test_build_summary_says_whether_the_floor_stayed_and_where_the_copy_is() -> None:
     first, second = build_summary(COPIED, FREE, "mc-nested undo")
     assert first == (
         "Arena from (-7, 64, 0) to (7, 65, 14), facing south; the floor of grass_block stayed, "

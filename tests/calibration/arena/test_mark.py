@@ -38,7 +38,7 @@ WITHIN = st.floats(-0.45, 0.45)
 
 
 @given(BLOCKS, st.sampled_from(FACINGS), CELLS, WITHIN, WITHIN, st.floats(-19.9, 19.9), st.integers(15, 32))
-def test_the_arena_is_the_one_that_the_player_stands_in(
+def test_arena_is_found_from_the_players_pose_and_cell(
     origin: Block, facing: Facing, standing: Cell, east: float, south: float, turned: float, size: int
 ) -> None:
     x, y, z = centre_of(origin, facing, standing)
@@ -47,7 +47,7 @@ def test_the_arena_is_the_one_that_the_player_stands_in(
     assert arena == Arena.around(origin, facing, size=size)
 
 
-def test_a_player_at_the_near_edge_has_the_arena_before_and_beside_them() -> None:
+def test_arena_lies_ahead_of_and_beside_a_player_at_the_middle_of_its_near_edge() -> None:
     # Facing south, +Z is ahead and west, -X, to the right (FACTS: The F3 debug screen).
     arena = arena_from_reading(Reading((100.5, 64.0, 200.5), 0.0, 30.0), (7, 0), 15)
     assert arena.region == ((93, 64, 200), (107, 65, 214))
@@ -74,7 +74,7 @@ def test_no_arena_is_marked_if_the_feet_are_not_on_top_of_a_whole_block(height: 
         arena_from_reading(Reading((0.5, height, 0.5), 0.0, 30.0), (7, 0), 15)
 
 
-def test_the_question_names_the_corners_and_says_that_what_stands_there_is_unknown() -> None:
+def test_mark_question_names_the_corners_and_says_that_the_blocks_there_are_unknown() -> None:
     question = mark_question(Arena.around((10, 64, -20), "north"))
     assert "(10, 64, -34) to (24, 65, -20)" in question
     assert "15 x 15 x 2 high" in question
@@ -158,7 +158,7 @@ def opened(font_file: Path) -> OpenContext:
     return window_titled("Minecraft 1.20.1 - Singleplayer", font_file)
 
 
-def test_the_arena_that_the_screen_shows_is_written_into_a_new_profile(
+def test_arena_read_from_the_screen_is_written_into_a_new_profile(
     tmp_path: Path, font_file: Path, opened: OpenContext
 ) -> None:
     file = tmp_path / "mine.toml"
@@ -197,14 +197,14 @@ def old_profile(tmp_path: Path, font_file: Path) -> Path:
     return file
 
 
-def test_an_old_profile_keeps_what_else_it_says(old_profile: Path, opened: OpenContext) -> None:
+def test_old_profile_keeps_its_other_values_and_its_comments(old_profile: Path, opened: OpenContext) -> None:
     mark_arena(old_profile, opened, ask=lambda _: True, say=lambda _: None)
     profile = load_profile(old_profile)
     assert (profile.marked_arena().facing, profile.keys.forward) == ("west", "z")
     assert old_profile.read_text("utf-8").startswith("# my own notes")
 
 
-def test_the_cell_that_the_player_stands_on_may_be_another(old_profile: Path, opened: OpenContext) -> None:
+def test_player_may_stand_on_another_cell_than_the_default(old_profile: Path, opened: OpenContext) -> None:
     mark_arena(old_profile, opened, ask=lambda _: True, say=lambda _: None, standing=(7, 14))
     assert load_profile(old_profile).marked_arena().block_of((7, 14)) == (-4, 64, 118)
 
@@ -220,14 +220,16 @@ def test_the_cell_that_the_player_stands_on_may_be_another(old_profile: Path, op
         ("Minecraft: All the Mods 9", "1.16.5"),
     ],
 )
-def test_the_version_is_the_titles_or_stays(title: str, version: str, old_profile: Path, font_file: Path) -> None:
+def test_profile_takes_the_version_from_the_window_title_or_keeps_its_own(
+    title: str, version: str, old_profile: Path, font_file: Path
+) -> None:
     old_profile.write_text(old_profile.read_text("utf-8") + '[game]\nversion = "1.16.5"\n', "utf-8")
     window = window_titled(title, font_file)
     mark_arena(old_profile, window, ask=lambda _: True, say=lambda _: None)
     assert load_profile(old_profile).game.version == version
 
 
-def test_with_yes_nothing_is_asked(old_profile: Path, opened: OpenContext) -> None:
+def test_yes_option_marks_the_arena_without_a_question(old_profile: Path, opened: OpenContext) -> None:
     def ask(question: str) -> bool:
         raise AssertionError(question)
 

@@ -43,7 +43,7 @@ def test_the_border_is_the_ring_around_the_cells_and_nothing_else(
 
 
 @given(ORIGINS, st.sampled_from(FACINGS), st.sampled_from(["1.12.2", "1.17.1", "1.18", "26.1"]))
-def test_a_copy_lies_in_the_same_columns_out_of_the_way_and_in_the_world(
+def test_copy_positions_are_above_the_arena_in_the_same_columns_and_inside_the_world(
     origin: tuple[int, int, int], facing: Facing, version: str
 ) -> None:
     box = box_of(Arena.around(origin, facing))
@@ -86,7 +86,7 @@ def test_two_boxes_overlap_if_they_share_a_block(corner: tuple[int, int, int], i
     assert do_overlap(box_at(box, corner), box) is is_shared
 
 
-def test_everything_is_written_out_for_one_arena() -> None:
+def test_build_commands_set_floor_border_gamerules_and_hotbar() -> None:
     profile = Profile(game=GameVersion(version="1.20.1"))
     assert build_commands(profile, ARENA, ("oak_planks", "stone"), builds_floor=True) == [
         "/fill -5 63 19 11 63 35 minecraft:obsidian",
@@ -117,7 +117,7 @@ def test_no_command_for_the_largest_arena_changes_more_blocks_than_the_game_allo
     assert max(map(len, commands)) < 256, "what the chat takes"
 
 
-def test_a_floor_that_will_do_stays() -> None:
+def test_build_commands_without_a_new_floor_place_no_obsidian() -> None:
     commands = build_commands(Profile(), ARENA, ("stone",), builds_floor=False)
     assert not any("obsidian" in command for command in commands)
     assert volume(floor_of(ARENA)) == 17 * 17
@@ -133,17 +133,17 @@ def test_a_floor_that_will_do_stays() -> None:
         ("26.3", ("advance_time", "advance_weather", "spawn_mobs")),
     ],
 )
-def test_rules_go_by_their_names_in_each_version(version: str, rules: tuple[str, ...]) -> None:
+def test_gamerules_are_named_as_in_each_version(version: str, rules: tuple[str, ...]) -> None:
     assert gamerules(version) == rules
 
 
-def test_1_12_gets_its_own_blocks_and_syntax() -> None:
+def test_commands_for_1_12_use_its_block_names_and_syntax() -> None:
     profile = Profile(game=GameVersion(version="1.12.2"))
     commands = build_commands(profile, ARENA, ("oak_planks",), builds_floor=True)
     assert commands[-1] == "/replaceitem entity @s slot.hotbar.0 minecraft:planks 64 0"
 
 
-def test_the_border_block_is_none_of_the_materials() -> None:
+def test_border_block_differs_from_every_material() -> None:
     assert border_block(("stone", "oak_planks")) == "lapis_block"
     assert border_block(("lapis_block", "stone")) == "mossy_cobblestone"
     assert FLOOR not in BORDERS
@@ -152,5 +152,5 @@ def test_the_border_block_is_none_of_the_materials() -> None:
 @pytest.mark.parametrize(
     ("block", "fit"), [("stone", True), ("grass_block", True), ("packed_ice", False), ("soul_sand", False)]
 )
-def test_a_floor_that_is_slippery_slow_or_falls_is_replaced(block: str, fit: bool) -> None:
+def test_slippery_or_slow_block_is_unfit_as_a_floor(block: str, fit: bool) -> None:
     assert is_good_floor(block) is fit

@@ -44,7 +44,7 @@ def no_window(_profile: Profile) -> AbstractContextManager[CalibrationContext]:
         (Profile(arena=COPIED), DesktopError, "a window was looked for"),
     ],
 )
-def test_a_window_is_opened_only_with_a_copy_to_put_back(
+def test_undo_looks_for_a_window_only_if_the_profile_has_a_copy(
     profile: Profile, error: type[Exception], message: str, tmp_path: Path
 ) -> None:
     file = tmp_path / "mine.toml"
@@ -54,12 +54,12 @@ def test_a_window_is_opened_only_with_a_copy_to_put_back(
     assert load_profile(file) == profile
 
 
-def test_without_profile_and_note_there_is_nothing_to_undo(tmp_path: Path) -> None:
+def test_undo_without_a_profile_or_a_note_is_an_error(tmp_path: Path) -> None:
     with pytest.raises(ProfileError):
         undo_built_arena(tmp_path / "mine.toml", no_window)
 
 
-def test_what_stood_there_is_back_and_profile_and_note_forget_the_arena(tmp_path: Path) -> None:
+def test_undo_puts_the_blocks_back_and_removes_the_arena_from_the_profile_and_the_note(tmp_path: Path) -> None:
     client, file = VirtualClient(), tmp_path / "mine.toml"
     client.realm.world.put((3, 64, 6), "stone")
     before = client.built
@@ -78,7 +78,7 @@ def test_what_stood_there_is_back_and_profile_and_note_forget_the_arena(tmp_path
     assert not note_path(file).exists()
 
 
-def test_a_profile_without_a_copy_is_refused_by_the_step_too(tmp_path: Path) -> None:
+def test_undo_step_refuses_a_profile_without_a_copy(tmp_path: Path) -> None:
     client = VirtualClient()
     profile = profile_of(client, tmp_path).model_copy(update={"arena": HERE})
     with context_on(client)(profile) as context, pytest.raises(UserError, match="no copy is known"):
@@ -118,7 +118,7 @@ def test_a_note_is_removed_once_the_saved_profile_has_the_same_arena(tmp_path: P
     remove_copy_note(file)
 
 
-def test_the_command_names_the_profile_as_the_command_line_takes_it(tmp_path: Path) -> None:
+def test_undo_command_names_the_profile_by_name_or_path_and_quotes_spaces(tmp_path: Path) -> None:
     verb = "mc-nested calibrate arena --undo --profile"
     assert undo_command(profile_path("mine")) == f"{verb} mine"
     assert undo_command(profile_path("my game")) == f'{verb} "my game"'

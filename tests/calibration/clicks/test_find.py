@@ -123,7 +123,7 @@ def test_the_world_is_not_left_unless_the_player_answers_yes(tmp_path: Path) -> 
 
 
 @pytest.mark.parametrize("title", ["Minecraft 1.20.1 - Multiplayer (LAN)", "Minecraft 1.20.1 - Multiplayer (Realms)"])
-def test_a_world_that_others_may_share_is_not_left_and_nothing_is_asked(
+def test_shared_world_is_not_left_and_nothing_is_asked(
     title: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     client = started(VirtualClient())
@@ -146,14 +146,14 @@ def test_another_programs_menus_are_left_alone(tmp_path: Path, monkeypatch: pyte
     assert "names no Minecraft" in found.lines[-1]
 
 
-def test_without_the_open_to_lan_button_the_world_is_not_left_either(tmp_path: Path) -> None:
+def test_in_1_12_the_world_is_not_left_without_an_open_to_lan_button(tmp_path: Path) -> None:
     # 1.12 never says in its title who else may be there (FACTS: Input and windows).
     client = started(VirtualClient(version="1.12.2", words={"Open to LAN": "Player Reporting"}))
     found = find_clicks(context_over(client), profile_in(tmp_path))
     assert set(found.profile.points) == set(PAUSE)
 
 
-def test_the_death_screen_is_reported_as_not_seen_and_never_guessed(tmp_path: Path) -> None:
+def test_respawn_button_is_reported_as_not_seen_and_never_guessed(tmp_path: Path) -> None:
     found = find_clicks(context_over(started(VirtualClient())), profile_in(tmp_path))
     assert "respawn" not in found.profile.points
     assert any(line.startswith("respawn: not seen") for line in found.lines)
@@ -161,7 +161,7 @@ def test_the_death_screen_is_reported_as_not_seen_and_never_guessed(tmp_path: Pa
     assert found.step == "clicks"
 
 
-def test_in_another_language_nothing_is_guessed_and_the_rest_is_asked_for_by_hand(tmp_path: Path) -> None:
+def test_in_another_language_no_button_is_found_and_the_points_are_asked_for_by_hand(tmp_path: Path) -> None:
     client = started(VirtualClient(words=SPANISH))
     wanted: list[str] = []
 
@@ -185,7 +185,9 @@ def test_unattended_the_step_fails_if_no_button_is_found(tmp_path: Path) -> None
         find_clicks_unattended(context_over(started(VirtualClient(words=SPANISH))), profile_in(tmp_path))
 
 
-def test_a_button_that_a_pack_renames_is_reported(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_renamed_play_selected_world_button_is_an_error_with_no_key_down(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     monkeypatch.setattr(recovery, "PATIENCE_S", 8.0)
     client = started(VirtualClient(words={"Play Selected World": "Upgrade and Play"}))
     profile = profile_in(tmp_path)
@@ -195,7 +197,7 @@ def test_a_button_that_a_pack_renames_is_reported(tmp_path: Path, monkeypatch: p
 
 
 @pytest.mark.parametrize("change", ["walked", "turned"])
-def test_coming_back_elsewhere_is_an_error(change: str, tmp_path: Path) -> None:
+def test_player_who_was_moved_or_turned_during_the_menu_walk_is_an_error(change: str, tmp_path: Path) -> None:
     client = started(VirtualClient())
 
     def move() -> None:
@@ -242,7 +244,7 @@ def test_the_profile_its_pictures_and_an_overview_are_written(tmp_path: Path) ->
     assert alike == set(PAUSE)
 
 
-def test_where_nothing_was_found_nothing_is_written(tmp_path: Path) -> None:
+def test_nothing_is_written_if_no_button_was_found(tmp_path: Path) -> None:
     file = tmp_path / "mine.toml"
     save_profile(profile_in(tmp_path), file)
     assert calibrate_clicks(file, context_of(started(VirtualClient(words=SPANISH))), is_by_hand=False) is None
@@ -319,7 +321,7 @@ def recorded(player: Player, names: Iterable[str]) -> dict[str, tuple[float, flo
 
 
 @given(st.integers(0, 3839), st.integers(0, 2159))
-def test_a_recorded_fraction_leads_back_to_within_a_pixel(x: int, y: int) -> None:
+def test_recorded_point_leads_back_to_its_pixel_within_one_pixel(x: int, y: int) -> None:
     player = Player([("f8", (x, y), True)], window=(3840, 2160))
     across, down = recorded(player, ["respawn"])["respawn"]
     assert abs(across * 3840 - x) < 1
@@ -385,7 +387,7 @@ def calibrated(file: Path, player: Player, names: Sequence[str] = tuple(MENU_POI
     return calibrate_clicks(file, context_with(player), names=names, listen=heard(player))
 
 
-def test_the_menus_points_are_asked_for_and_written_with_a_picture_beside_the_profile(tmp_path: Path) -> None:
+def test_menu_points_are_asked_for_and_written_with_a_picture_beside_the_profile(tmp_path: Path) -> None:
     player = Player([("f8", (100, 75), True)] * len(MENU_POINTS))
     written = calibrated(tmp_path / "mine.toml", player)
     assert written is not None

@@ -16,7 +16,7 @@ def walk_on(client: VirtualClient, folder: Path) -> tuple[MenuWalk, list[str]]:
     return MenuWalk(context_over(client).connection.for_profile(profile), profile, said.append), said
 
 
-def test_the_pause_menu_has_two_points_and_shows_a_single_players_world(tmp_path: Path) -> None:
+def test_visit_to_the_pause_menu_records_two_points_and_recognises_single_player(tmp_path: Path) -> None:
     client = started(VirtualClient())
     walk, said = walk_on(client, tmp_path)
     assert (walk.points, walk.notes, walk.is_single_player, walk.scale) == ({}, [], False, 2)
@@ -32,7 +32,7 @@ def test_the_pause_menu_has_two_points_and_shows_a_single_players_world(tmp_path
         assert abs(point.at[0] - 0.5) < 0.01, "both are in the middle"
 
 
-def test_the_title_and_the_worlds_have_three_more(tmp_path: Path) -> None:
+def test_visit_to_the_title_records_three_points_of_the_title_and_the_world_list(tmp_path: Path) -> None:
     client = started(VirtualClient())
     walk, _ = walk_on(client, tmp_path)
     walk.visit_title()
@@ -45,14 +45,16 @@ def test_the_title_and_the_worlds_have_three_more(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("words", [{"Open to LAN": "Player Reporting"}, {"Save and Quit to Title": "Disconnect"}])
-def test_without_a_single_players_buttons_it_is_not_surely_one(words: dict[str, str], tmp_path: Path) -> None:
+def test_world_is_not_taken_for_single_player_if_one_of_its_buttons_is_missing(
+    words: dict[str, str], tmp_path: Path
+) -> None:
     walk, _ = walk_on(started(VirtualClient(words=words)), tmp_path)
     walk.visit_pause_menu()
     assert not walk.is_single_player
 
 
 @pytest.mark.parametrize(("version", "is_own"), [("26.3", True), ("1.12.2", False)])
-def test_world_options_show_a_world_of_ones_own_only_where_the_title_says_so(
+def test_world_options_button_means_single_player_only_if_the_title_says_so(
     version: str, is_own: bool, tmp_path: Path
 ) -> None:
     client = started(VirtualClient(version=version, words={"Open to LAN": "World Options..."}))

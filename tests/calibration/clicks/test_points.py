@@ -41,7 +41,7 @@ FRAME = np.arange(480 * 854 * 3, dtype=np.uint32).astype(np.uint8).reshape(480, 
         ((0.0, 0.0), slice(0, 10), slice(0, 96)),
     ],
 )
-def test_a_points_picture_is_what_lies_around_it_within_the_window(
+def test_point_picture_is_the_area_around_the_point_cut_off_at_the_window_edge(
     at: tuple[float, float], rows: slice, columns: slice
 ) -> None:
     point = RecordedPoint("world", at, FRAME).click_point(2)
@@ -74,7 +74,7 @@ def test_each_recorded_screen_is_a_tile_of_one_width_with_its_point_marked() -> 
     assert at(picture, 1, 28) == (90, 90, 90)
 
 
-def test_the_current_screen_is_framed_by_what_was_recorded() -> None:
+def test_current_screen_is_drawn_with_each_point_framed_and_its_recorded_picture_below() -> None:
     client = started(VirtualClient())
     client.game.open("pause")
     client.clock.sleep(0.3)
@@ -105,7 +105,7 @@ def recorded(tmp_path: Path) -> Path:
     return file
 
 
-def test_a_dry_run_moves_the_mouse_to_what_is_there_and_presses_nothing(recorded: Path) -> None:
+def test_dry_run_moves_the_mouse_to_the_buttons_on_screen_and_presses_nothing(recorded: Path) -> None:
     client = started(VirtualClient())
     client.game.open("pause")
     lines = try_clicks(recorded, context_of(client))
@@ -125,7 +125,7 @@ def test_a_dry_run_in_the_world_does_not_turn_the_view(recorded: Path) -> None:
     assert (client.realm.player.yaw, client.realm.player.pitch) == (client.settings.yaw, client.settings.pitch)
 
 
-def test_show_marks_what_is_there_green_and_the_rest_red(recorded: Path) -> None:
+def test_show_marks_the_points_on_this_screen_green_and_the_others_red(recorded: Path) -> None:
     client = started(VirtualClient())
     client.game.open("title")
     picture = decoded(show_clicks(recorded, context_of(client)).read_bytes(), 1)
@@ -140,7 +140,7 @@ def test_show_marks_what_is_there_green_and_the_rest_red(recorded: Path) -> None
     assert picture_file(recorded, "world").is_file()
 
 
-def test_what_was_never_recorded_can_not_be_shown(tmp_path: Path) -> None:
+def test_show_without_recorded_points_is_an_error(tmp_path: Path) -> None:
     with pytest.raises(ProfileError, match="run mc-nested calibrate clicks"):
         show_clicks(tmp_path / "new.toml", context_of(VirtualClient()))
 

@@ -109,7 +109,7 @@ class Computer:
 
 
 def calibrated() -> CalibratedTable:
-    """Return what a virtual client is unless set otherwise."""
+    """Return the calibrated facts of a virtual client with its default settings."""
     return CalibratedTable(date="2026-11-21", version="1.20.1", window=(854, 480), gui_scale=2)
 
 

@@ -22,7 +22,7 @@ def row(path: Path, text: str | None, version: str | None = "26.3") -> Check:
     return entries_row(folder(path, text), version, {})[1]
 
 
-def test_entries_that_are_on_are_named_and_those_that_are_off_with_what_to_do(tmp_path: Path) -> None:
+def test_entries_row_names_the_entries_that_are_on_or_those_that_are_off_with_a_fix(tmp_path: Path) -> None:
     on = '{"custom":{"player_position":"alwaysOn","looking_at_block_state":"inOverlay"}}'
     assert row(tmp_path, on) == Check(
         CheckName.DEBUG_ENTRIES, "pass", "player_position and looking_at_block_state are on"
@@ -33,13 +33,13 @@ def test_entries_that_are_on_are_named_and_those_that_are_off_with_what_to_do(tm
     assert both.detail == "player_position and looking_at_block_state are off"
 
 
-def test_without_a_file_the_default_entries_are_shown(tmp_path: Path) -> None:
+def test_without_a_debug_profile_file_the_default_entries_apply(tmp_path: Path) -> None:
     found = row(tmp_path, None, "1.21.11")
     assert (found.status, found.detail) == ("fail", "looking_at_block is off, since the default entries are shown")
     assert "set looking_at_block to In Overlay" in found.fix
 
 
-def test_a_damaged_file_is_a_clear_one_line_error(tmp_path: Path) -> None:
+def test_damaged_debug_profile_is_reported_with_its_fix(tmp_path: Path) -> None:
     found = row(tmp_path, "{")
     path = tmp_path / "debug-profile.json"
     assert found.detail == f"{path} is damaged, it is no JSON: the game will replace it by its default entries"
@@ -52,12 +52,12 @@ def test_a_version_without_entries_passes_and_an_unknown_one_is_skipped(tmp_path
     assert entries_row(None, "26.3", {})[1].status == "skip"
 
 
-def test_a_file_that_can_not_be_read_fails(tmp_path: Path) -> None:
+def test_unreadable_debug_profile_fails_its_row(tmp_path: Path) -> None:
     (tmp_path / "debug-profile.json").mkdir()
     assert row(tmp_path, None).status == "fail"
 
 
-def test_what_is_seen_is_on_whatever_the_file_says(tmp_path: Path) -> None:
+def test_entries_seen_on_the_screen_pass_whatever_the_file_says(tmp_path: Path) -> None:
     seen = {name: Check(name, "pass", "") for name in (CheckName.POSITION_LINE, CheckName.TARGET_LINE)}
     profile, check = entries_row(folder(tmp_path), "26.3", seen)
     assert check.status == "pass"
@@ -65,7 +65,9 @@ def test_what_is_seen_is_on_whatever_the_file_says(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(("status", "is_told"), [("skip", True), ("fail", True), ("pass", False)])
-def test_an_entry_that_is_off_is_why_no_block_is_seen(status: Status, is_told: bool, tmp_path: Path) -> None:
+def test_looked_at_row_names_the_entry_that_is_off_if_no_block_was_seen(
+    status: Status, is_told: bool, tmp_path: Path
+) -> None:
     known = {CheckName.TARGET_LINE: Check(CheckName.TARGET_LINE, status, "")}
     profile, check = entries_row(folder(tmp_path), "26.3", known)
     told = target_row_by_entries(profile, {**known, check.name: check})
@@ -74,7 +76,7 @@ def test_an_entry_that_is_off_is_why_no_block_is_seen(status: Status, is_told: b
         assert (told.status, told.detail, told.fix) == ("fail", "its entry looking_at_block_state is off", PRESS)
 
 
-def test_the_position_alone_says_nothing_about_the_looked_at_line(tmp_path: Path) -> None:
+def test_position_entry_that_is_off_does_not_change_the_looked_at_row(tmp_path: Path) -> None:
     text = '{"custom":{"player_position":"never","looking_at_block_state":"inOverlay"}}'
     profile, check = entries_row(folder(tmp_path, text), "26.3", {})
     known = {CheckName.TARGET_LINE: Check(CheckName.TARGET_LINE, "skip", ""), check.name: check}
@@ -97,7 +99,7 @@ def options(data_version: str) -> OptionsTxt:
         (None, None, None, None, None),
     ],
 )
-def test_the_installed_version_is_told_by_what_is_nearest_to_the_game(
+def test_installed_version_comes_from_title_then_folder_then_options_then_profile(
     in_title: str | None,
     of_folder: str | None,
     of_options: OptionsTxt | None,

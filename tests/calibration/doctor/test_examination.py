@@ -67,7 +67,7 @@ def test_a_game_that_can_be_played_passes_every_row(
     assert not computer.said
 
 
-def test_each_row_says_what_was_seen(computer: Computer) -> None:
+def test_row_details_give_the_title_size_position_block_and_options_file(computer: Computer) -> None:
     said = rows(computer.examined(opened(client_in(as_it_was)), clipboard=None))
     assert said["game's window"].detail == "'Minecraft 1.20.1 - Singleplayer'"
     assert said["size and GUI scale"].detail.startswith("854 x 480 pixels, GUI scale 2: only 427 GUI pixels wide")
@@ -126,7 +126,7 @@ def test_each_row_says_what_was_seen(computer: Computer) -> None:
         "scale",
     ],
 )
-def test_each_fault_fails_in_its_own_rows_and_nothing_is_pressed_where_it_could_do_harm(
+def test_each_fault_fails_only_its_own_rows_and_leaves_the_game_as_it_was(
     change: Callable[[VirtualClient], object],
     choices: ClientSettings,
     failing: set[str],
@@ -146,7 +146,7 @@ def test_each_fault_fails_in_its_own_rows_and_nothing_is_pressed_where_it_could_
     assert all(check.fix for check in found.checks if check.status == "fail")
 
 
-def test_the_remedy_for_a_version_that_hides_the_looked_at_line_switches_it_on(computer: Computer) -> None:
+def test_fix_for_a_hidden_looked_at_line_is_to_switch_its_entry_on(computer: Computer) -> None:
     client = client_in(as_it_was, ClientSettings(pitch=DOWN, version="1.21.9", debug_entries=GAME_DEFAULT))
     row = rows(computer.examined(opened(client)))["looked-at line"]
     assert "F3+F6" in row.fix
@@ -173,7 +173,7 @@ def test_the_game_that_comes_to_the_front_in_time_is_examined(computer: Computer
     assert "Switch to the game" in computer.said[0]
 
 
-def test_the_game_menu_that_a_person_closes_in_time_is_no_fault(computer: Computer) -> None:
+def test_game_menu_closed_in_time_does_not_fail_the_debug_screen_row(computer: Computer) -> None:
     client = client_in(lambda client: client.game.open("pause"))
     client.clock.call_at(client.clock.now() + 2, lambda: client.game.open("world"))
     assert statuses(computer.examined(opened(client)))["debug screen"] == "pass"
@@ -191,7 +191,7 @@ def no_session() -> str:
     raise DesktopError("no display (DISPLAY is not set): run this in the desktop session that shows the game")
 
 
-def test_without_a_game_every_row_is_there_and_the_files_are_checked(computer: Computer) -> None:
+def test_without_a_game_every_row_is_reported_and_the_files_are_checked(computer: Computer) -> None:
     found = computer.examined(no_window)
     seen = statuses(found)
     assert tuple(seen) == tuple(CheckName)
@@ -203,12 +203,12 @@ def test_without_a_game_every_row_is_there_and_the_files_are_checked(computer: C
     assert found.is_window_closed is True
 
 
-def test_ambiguous_windows_are_no_closed_game(computer: Computer) -> None:
+def test_several_game_windows_fail_the_window_row_and_do_not_count_as_closed(computer: Computer) -> None:
     found = computer.examined(several)
     assert (statuses(found)["game's window"], found.is_window_closed) == ("fail", False)
 
 
-def test_without_a_desktop_or_anything_else_every_row_is_there(tmp_path: Path) -> None:
+def test_without_desktop_profile_or_options_every_row_is_reported(tmp_path: Path) -> None:
     computer = Computer(tmp_path, options=None)
     computer.profile.unlink()
     found = computer.examined(several, session=no_session)
@@ -236,7 +236,7 @@ def test_with_a_named_font_and_no_profile_the_keys_are_tried(computer: Computer)
     assert statuses(found)[CheckName.INPUT] == "pass"
 
 
-def test_a_font_that_can_not_be_read_is_a_fault_and_another_one_is_read_with(computer: Computer) -> None:
+def test_unreadable_font_fails_its_row_and_another_font_reads_the_screen(computer: Computer) -> None:
     computer.save(Profile(screen=ScreenTable(font=str(computer.system.home / "gone.jar"))))
     computer.jar_with_the_font()
     found = rows(computer.examined(opened(client_in(as_it_was))))
@@ -245,7 +245,7 @@ def test_a_font_that_can_not_be_read_is_a_fault_and_another_one_is_read_with(com
     assert "gone.jar" in found["font"].detail
 
 
-def test_an_unreadable_jar_is_one_row_and_without_any_font_nothing_is_pressed(computer: Computer) -> None:
+def test_unreadable_font_with_no_other_fails_its_row_and_nothing_is_pressed(computer: Computer) -> None:
     computer.font.write_bytes(b"no jar")
     client = client_in(as_it_was)
     found = rows(computer.examined(opened(client)))
@@ -258,7 +258,7 @@ def test_an_unreadable_jar_is_one_row_and_without_any_font_nothing_is_pressed(co
     ("text", "said"),
     [("[window", "not TOML"), ("[calibrated]\nformat = 9\ndate = '2030-01-01'", "a profile of format 9")],
 )
-def test_a_profile_that_can_not_be_used_is_a_row_and_the_rest_is_checked_without_it(
+def test_unusable_profile_fails_its_row_and_the_other_rows_are_checked_without_it(
     text: str, said: str, computer: Computer
 ) -> None:
     computer.profile.write_text(text, "utf-8")
@@ -269,7 +269,7 @@ def test_a_profile_that_can_not_be_used_is_a_row_and_the_rest_is_checked_without
     assert computer.profile.read_text("utf-8") == text
 
 
-def test_a_gui_scale_that_the_profile_says_otherwise_is_seen_all_the_same(computer: Computer) -> None:
+def test_gui_scale_that_differs_from_the_profiles_is_measured_and_fails_its_row(computer: Computer) -> None:
     computer.save(Profile(screen=ScreenTable(font=str(computer.font), debug_scale=1)))
     row = rows(computer.examined(opened(client_in(as_it_was))))["size and GUI scale"]
     assert (row.status, row.detail) == (
@@ -278,7 +278,7 @@ def test_a_gui_scale_that_the_profile_says_otherwise_is_seen_all_the_same(comput
     )
 
 
-def test_a_key_of_the_debug_screen_that_does_nothing_is_a_fault(computer: Computer) -> None:
+def test_debug_key_without_an_effect_fails_the_input_row(computer: Computer) -> None:
     computer.save(Profile(screen=ScreenTable(font=str(computer.font)), keys=KeysTable(debug="f9")))
     client = client_in(as_it_was)
     row = rows(computer.examined(opened(client)))["input"]
@@ -287,7 +287,7 @@ def test_a_key_of_the_debug_screen_that_does_nothing_is_a_fault(computer: Comput
 
 
 @pytest.mark.parametrize("lost", [1, 2, 3])
-def test_a_press_that_is_lost_leaves_the_debug_screen_as_it_was(lost: int, computer: Computer) -> None:
+def test_lost_key_press_leaves_the_debug_screen_on_and_no_key_down(lost: int, computer: Computer) -> None:
     client = client_in(as_it_was)
     client.window.to_drop = lost
     row = rows(computer.examined(opened(client)))["input"]
@@ -304,7 +304,7 @@ def test_a_press_that_is_lost_leaves_the_debug_screen_as_it_was(lost: int, compu
     ],
 )
 @pytest.mark.parametrize("after_s", [0.05, 0.25])
-def test_whatever_happens_midway_no_key_stays_down_and_none_goes_to_another_window(
+def test_after_a_mishap_no_key_stays_down_and_none_goes_to_another_window(
     kind: Kind, after_s: float, computer: Computer
 ) -> None:
     client = client_in(as_it_was)
@@ -316,7 +316,7 @@ def test_whatever_happens_midway_no_key_stays_down_and_none_goes_to_another_wind
     assert math.dist(client.realm.player.feet, (0.5, 64.0, 0.5)) < 0.5
 
 
-def test_a_game_played_in_a_folder_of_its_own_is_found_by_its_process(computer: Computer, tmp_path: Path) -> None:
+def test_game_played_in_a_custom_folder_is_found_by_its_process(computer: Computer, tmp_path: Path) -> None:
     own = tmp_path / "own game"
     own.mkdir()
     (own / "options.txt").write_text(GOOD.replace("autoJump:false", "autoJump:true"), "utf-8")
@@ -326,13 +326,13 @@ def test_a_game_played_in_a_folder_of_its_own_is_found_by_its_process(computer: 
     assert found["autoJump"].status == "fail"
 
 
-def test_what_options_txt_reduces_is_reported_while_no_debug_screen_is_seen(computer: Computer) -> None:
+def test_reduced_debug_info_in_options_txt_fails_its_row_only_if_no_debug_screen_is_seen(computer: Computer) -> None:
     computer.options.write_text(GOOD.replace("reducedDebugInfo:false", "reducedDebugInfo:true"), "utf-8")
     assert statuses(computer.examined(no_window))["reduced debug info"] == "fail"
     assert statuses(computer.examined(opened(client_in(as_it_was))))["reduced debug info"] == "pass"
 
 
-def test_options_that_can_not_be_read_fail_one_row(computer: Computer) -> None:
+def test_unreadable_options_txt_fails_its_row_and_the_option_rows_are_skipped(computer: Computer) -> None:
     computer.options.write_bytes(b"\x89PNG\r\n\0\0")
     found = rows(computer.examined(no_window))
     assert found["options.txt"].status == "fail"
@@ -380,7 +380,7 @@ def interrupted(
 
 
 @given(at=st.integers(0, 60))
-def test_a_window_that_closes_at_any_moment_leaves_every_row_and_no_key_down(
+def test_window_that_closes_at_any_moment_still_gives_every_row_and_leaves_no_key_down(
     at: int, tmp_path_factory: pytest.TempPathFactory
 ) -> None:
     computer, client = Computer(tmp_path_factory.mktemp("home")), client_in(as_it_was)

@@ -49,7 +49,7 @@ def tried(client: VirtualClient, keys: KeysTable | None = None, *, opens_menu_at
         return input_row(client.devices, controller, snapshot, keys or KeysTable())
 
 
-def test_a_step_a_slot_and_the_debug_screen_are_seen_and_undone(client: VirtualClient) -> None:
+def test_input_row_tries_a_step_a_slot_and_the_debug_screen_and_undoes_them(client: VirtualClient) -> None:
     player = client.game.realm.player
     player.slot, before = 4, player.feet
     row = tried(client)
@@ -72,7 +72,7 @@ def test_an_entry_that_is_always_shown_does_not_count_as_the_debug_screen(versio
     assert client.game.has_f3
 
 
-def test_a_step_that_was_not_wholly_taken_back_is_said_with_its_blocks(client: VirtualClient) -> None:
+def test_input_row_says_how_many_blocks_of_the_step_were_not_undone(client: VirtualClient) -> None:
     before = client.game.realm.player.feet
     row = tried(client, KeysTable(back="i"))
     left = re.search(r"; undone but for (\d\.\d\d) blocks of the step$", row.detail)
@@ -82,7 +82,7 @@ def test_a_step_that_was_not_wholly_taken_back_is_said_with_its_blocks(client: V
 
 
 @pytest.mark.parametrize("lag_s", [0.25, 0.5])
-def test_in_a_game_that_lags_the_slot_is_waited_for_as_long_as_the_step(lag_s: float) -> None:
+def test_input_row_passes_in_a_lagging_game_and_gives_the_distance_left(lag_s: float) -> None:
     lag = (lag_s, lag_s)
     client = started(VirtualClient(input_latency_s=lag, capture_latency_s=lag))
     client.clock.sleep(2 * lag_s)
@@ -96,7 +96,7 @@ def test_in_a_game_that_lags_the_slot_is_waited_for_as_long_as_the_step(lag_s: f
 
 
 @pytest.mark.parametrize("slot", range(9))
-def test_whichever_slot_was_chosen_is_chosen_again(client: VirtualClient, slot: int) -> None:
+def test_input_row_selects_the_earlier_hotbar_slot_again(client: VirtualClient, slot: int) -> None:
     client.game.realm.player.slot = slot
     client.clock.sleep(0.3)
     assert tried(client).status == "pass"
@@ -104,7 +104,7 @@ def test_whichever_slot_was_chosen_is_chosen_again(client: VirtualClient, slot: 
     assert client.game.realm.player.slot == slot
 
 
-def test_where_no_movement_key_arrives_the_debug_screens_key_is_not_pressed(client: VirtualClient) -> None:
+def test_debug_key_is_not_pressed_if_no_movement_key_has_an_effect(client: VirtualClient) -> None:
     row = tried(client, KeysTable(forward="i", back="k", left="j"))
     assert (row.status, row.detail) == (
         "fail",
@@ -114,19 +114,19 @@ def test_where_no_movement_key_arrives_the_debug_screens_key_is_not_pressed(clie
     assert client.game.has_f3
 
 
-def test_a_wall_in_front_is_no_fault(client: VirtualClient) -> None:
+def test_input_row_passes_with_the_back_key_if_the_forward_key_moves_nothing(client: VirtualClient) -> None:
     row = tried(client, KeysTable(forward="i"))
     assert row.status == "pass"
     assert row.detail.startswith("s, 1, 2 and f3")
 
 
-def test_a_slot_that_is_not_seen_to_change_is_a_warning_and_no_other_key_is_pressed(client: VirtualClient) -> None:
+def test_unchanged_hotbar_slot_is_a_warning_and_leaves_the_debug_screen_on(client: VirtualClient) -> None:
     row = tried(client, KeysTable(hotbar=("i", "j", *"3456789")))
     assert (row.status, row.detail) == ("warn", "i and j were pressed, and the hotbar's frame wasn't seen to move")
     assert client.game.has_f3
 
 
-def test_a_debug_key_without_an_effect_fails_after_its_time(client: VirtualClient) -> None:
+def test_debug_key_without_an_effect_fails_the_input_row(client: VirtualClient) -> None:
     row = tried(client, KeysTable(debug="f9"))
     assert row.status == "fail"
     assert row.detail == "f9 was pressed, and the debug screen stayed on"
@@ -147,7 +147,7 @@ def test_behind_another_window_nothing_is_pressed(client: VirtualClient) -> None
     assert client.game.has_f3
 
 
-def test_a_menu_that_opens_meanwhile_is_a_warning(client: VirtualClient) -> None:
+def test_menu_that_opens_during_the_input_check_is_a_warning(client: VirtualClient) -> None:
     row = tried(client, opens_menu_at=2)
     assert (row.status, row.detail) == ("warn", "a menu opened meanwhile")
 
@@ -173,7 +173,7 @@ class Board:
             self.text = text
 
 
-def test_a_clipboard_is_tried_out_and_holds_what_it_held() -> None:
+def test_clipboard_row_passes_and_keeps_the_clipboards_text() -> None:
     board = Board("a person's text")
     assert clipboard_row(board).status == "pass"
     assert board.text == "a person's text"
@@ -189,7 +189,7 @@ def test_a_clipboard_that_holds_a_picture_is_left_alone() -> None:
 
 
 @pytest.mark.parametrize("fails_at", [2, 3])
-def test_a_clipboard_that_fails_midway_holds_what_it_held(fails_at: int) -> None:
+def test_clipboard_that_fails_midway_keeps_its_old_text(fails_at: int) -> None:
     board = Board(fails_at=fails_at)
     assert clipboard_row(board).status == "warn"
     assert board.text == "mine"
@@ -218,7 +218,7 @@ def test_the_first_movement_key_that_moves_the_player_is_named(keys: KeysTable, 
     assert 0.1 < step.seen_s < 0.5
 
 
-def test_how_far_the_step_was_not_undone_is_measured() -> None:
+def test_moving_key_measures_how_far_the_step_was_not_undone() -> None:
     client = started(VirtualClient())
     before = client.game.realm.player.feet
     step = moving_key(window_of(client), KeysTable(back="i"))
@@ -237,20 +237,18 @@ def test_without_a_key_that_moves_the_player_no_moving_key_is_named() -> None:
 
 
 @pytest.mark.parametrize(("size", "scale"), [((640, 480), 1), ((854, 480), 2), ((1281, 721), 3)])
-def test_the_slots_frame_is_seen_at_every_scale_and_in_windows_whose_size_it_does_not_divide(
-    size: tuple[int, int], scale: int
-) -> None:
+def test_change_of_hotbar_slot_is_seen_at_gui_scales_1_to_3(size: tuple[int, int], scale: int) -> None:
     client = started(VirtualClient(size=size, scale=scale))
     assert is_slot_seen_to_change(window_of(client), KeysTable())
     assert not is_slot_seen_to_change(window_of(client), KeysTable(hotbar=("i", "j", *"3456789")))
 
 
-def test_another_slot_than_the_first_two_is_a_wrong_profile() -> None:
+def test_change_of_hotbar_slot_is_not_seen_if_the_second_slots_key_selects_the_third() -> None:
     client = started(VirtualClient())
     assert not is_slot_seen_to_change(window_of(client), KeysTable(hotbar=tuple("132456789")))
 
 
-def test_in_a_menu_nothing_is_pressed() -> None:
+def test_key_trials_in_a_menu_raise_an_error() -> None:
     client = started(VirtualClient())
     client.game.open("pause")
     client.clock.sleep(0.3)

@@ -44,7 +44,7 @@ from tests.calibration.doctor.examined import GOOD
         ("large", None, "skip", "the file doesn't say"),
     ],
 )
-def test_a_gui_scale_is_judged_as_the_window_gets_it(
+def test_gui_scale_row_judges_the_scale_that_the_window_gets(
     value: str | None, window: tuple[int, int] | None, status: str, detail: str
 ) -> None:
     row = gui_scale_row(value, window)
@@ -79,11 +79,13 @@ def bound(change: tuple[str, str], keys: KeysTable) -> tuple[str, str]:
         ),
     ],
 )
-def test_keys_are_those_of_the_profile(change: tuple[str, str], keys: KeysTable, status: str, detail: str) -> None:
+def test_keys_row_compares_the_keys_in_options_txt_with_the_profiles(
+    change: tuple[str, str], keys: KeysTable, status: str, detail: str
+) -> None:
     assert bound(change, keys) == (status, detail)
 
 
-def test_a_file_without_keys_says_nothing_of_them() -> None:
+def test_keys_row_is_skipped_if_the_file_has_no_keys() -> None:
     assert keys_row(parse_options(b"lang:en_us\n", Path("options.txt")), KeysTable()).status == "skip"
 
 
@@ -106,7 +108,7 @@ def test_every_option_has_its_row_whether_there_is_a_file_or_not() -> None:
         (CheckName.SAVE_CHAT_DRAFTS, "warn"),
     ],
 )
-def test_a_switch_that_should_be_off_says_why_and_how(name: CheckName, status: str) -> None:
+def test_switch_that_should_be_off_fails_or_warns_with_a_reason_and_a_fix(name: CheckName, status: str) -> None:
     text = GOOD.replace(f"{name}:false", f"{name}:true")
     rows = {row.name: row for row in option_rows(parse_options(text.encode(), Path("o")), KeysTable(), None)}
     assert rows[name].status == status
@@ -118,7 +120,7 @@ def test_a_switch_that_should_be_off_says_why_and_how(name: CheckName, status: s
 @pytest.mark.parametrize(
     ("value", "status"), [("en_us", "pass"), ("en_US", "pass"), ("en_gb", "pass"), ("fr_fr", "warn")]
 )
-def test_menus_are_known_in_english(value: str, status: str) -> None:
+def test_language_other_than_english_is_a_warning(value: str, status: str) -> None:
     text = GOOD.replace("lang:en_us", f"lang:{value}")
     rows = {row.name: row for row in option_rows(parse_options(text.encode(), Path("o")), KeysTable(), None)}
     assert rows[CheckName.LANGUAGE].status == status
@@ -143,7 +145,7 @@ def test_menus_are_known_in_english(value: str, status: str) -> None:
         ("", "2", None, "warn", ", which is no scale"),
     ],
 )
-def test_any_scale_of_the_debug_screens_text_will_do(
+def test_any_valid_debug_screen_scale_passes(
     value: str | None, gui: str | None, window: tuple[int, int] | None, status: str, detail: str
 ) -> None:
     row = debug_scale_row(value, gui, window)
@@ -159,7 +161,7 @@ def row_of(name: CheckName, of: OptionsTxt) -> Check:
     return next(row for row in chat_rows(of) if row.name == name)
 
 
-def test_the_games_own_values_pass_and_a_file_without_them_says_nothing() -> None:
+def test_default_chat_options_pass_and_missing_ones_are_skipped() -> None:
     assert [(row.name, row.status) for row in chat_rows(options())] == [(name, "pass") for name in CHAT_CHECKS]
     bare = parse_options(b"lang:en_us\n", Path("options.txt"))
     assert {row.status for row in chat_rows(bare)} == {"skip"}
@@ -167,7 +169,7 @@ def test_the_games_own_values_pass_and_a_file_without_them_says_nothing() -> Non
 
 
 @pytest.mark.parametrize(("value", "status"), [("0", "pass"), ("1", "pass"), ("2", "fail"), ("hidden", "fail")])
-def test_a_chat_that_is_hidden_takes_no_command(value: str, status: str) -> None:
+def test_hidden_chat_fails_its_row_and_is_mended(value: str, status: str) -> None:
     changed = options("chatVisibility:0", f"chatVisibility:{value}")
     assert row_of(CheckName.CHAT_VISIBILITY, changed).status == status
     assert chat_mends(changed) == ({"chatVisibility": "0"} if status == "fail" else {})
@@ -180,7 +182,7 @@ def test_a_chat_that_is_hidden_takes_no_command(value: str, status: str) -> None
         *(("1.0", "false", "pass"), ("faint", "false", "skip")),
     ],
 )
-def test_a_faint_ground_behind_what_is_typed_counts_where_it_is_not_the_chats_alone(
+def test_faint_text_background_is_a_warning_unless_it_is_for_the_chat_only(
     opacity: str, only: str, status: str
 ) -> None:
     lines = ("textBackgroundOpacity:0.5\nbackgroundForChatOnly:true", f"textBackgroundOpacity:{opacity}\n{only}")
@@ -199,14 +201,14 @@ def test_a_faint_ground_behind_what_is_typed_counts_where_it_is_not_the_chats_al
         ("keypad.1", "pass", "key.keyboard.keypad.1"),
     ],
 )
-def test_a_key_for_friends_that_a_command_may_hold_loses_its_key(key: str, status: str, detail: str) -> None:
+def test_friends_key_that_a_command_may_contain_is_a_warning_and_is_unbound(key: str, status: str, detail: str) -> None:
     changed = options("friends:key.keyboard.unknown", f"friends:key.keyboard.{key}")
     row = row_of(CheckName.FRIENDS_KEY, changed)
     assert (row.status, row.detail) == (status, detail)
     assert chat_mends(changed) == ({"key_key.friends": "key.keyboard.unknown"} if status == "warn" else {})
 
 
-def test_every_row_that_is_not_passed_says_what_to_do_in_the_game_and_beside_it() -> None:
+def test_chat_rows_that_do_not_pass_name_the_games_option_and_doctor_fix() -> None:
     bad = options().with_values({"chatVisibility": "2", "textBackgroundOpacity": "0", "backgroundForChatOnly": "false"})
     rows = chat_rows(bad.with_values({"key_key.friends": "key.keyboard.o"}))
     assert [row.status for row in rows] == ["fail", "warn", "warn"]

@@ -15,7 +15,7 @@ from tests.calibration.contexts import font_file_in
 CALIBRATED = Profile(calibrated=CalibratedTable(date="2026-11-21", version="1.20.1", window=(854, 480), gui_scale=2))
 
 
-def test_a_profile_is_there_missing_or_broken(tmp_path: Path) -> None:
+def test_profile_row_tells_a_missing_a_good_and_a_broken_profile_apart(tmp_path: Path) -> None:
     file = tmp_path / "mine.toml"
     profile, row = profile_row(str(file))
     assert (profile, row.status) == (None, "skip")
@@ -28,7 +28,7 @@ def test_a_profile_is_there_missing_or_broken(tmp_path: Path) -> None:
     assert (profile, row.status, row.fix) == (None, "fail", "mend it, or move it away")
 
 
-def test_a_broken_profile_with_an_earlier_one_can_be_undone(tmp_path: Path) -> None:
+def test_fix_for_a_broken_profile_offers_calibrate_undo_if_there_is_an_earlier_one(tmp_path: Path) -> None:
     file = tmp_path / "mine.toml"
     save_profile(Profile(), file)
     save_profile(CALIBRATED, file)
@@ -54,7 +54,7 @@ def test_a_profile_fits_the_window_that_it_was_calibrated_on(
     assert (row.fix != "") == (status == "fail" or profile == Profile())
 
 
-def test_the_profiles_own_font_comes_first_and_without_any_there_is_a_remedy(tmp_path: Path) -> None:
+def test_font_row_reads_the_profiles_font_and_has_a_fix_if_there_is_none(tmp_path: Path) -> None:
     system = System("linux", tmp_path / "home", {})
     own = Profile(screen=ScreenTable(font=str(font_file_in(tmp_path))))
     font, row = font_row(own, system, "1.20.1")
@@ -70,7 +70,7 @@ def test_the_profiles_own_font_comes_first_and_without_any_there_is_a_remedy(tmp
     assert "gone.png" in row.detail
 
 
-def test_a_jar_stands_in_for_a_font_that_can_not_be_read(tmp_path: Path) -> None:
+def test_font_row_reads_another_versions_jar_if_the_first_is_unreadable_or_missing(tmp_path: Path) -> None:
     system = System("linux", tmp_path, {})
     jars = [tmp_path / ".minecraft" / "versions" / version / f"{version}.jar" for version in ("1.20.1", "1.19.4")]
     for jar in jars:
@@ -88,7 +88,7 @@ def test_a_jar_stands_in_for_a_font_that_can_not_be_read(tmp_path: Path) -> None
     assert (row.status, row.detail) == ("pass", f"found, of Minecraft 1.19.4: {jars[1]}")
 
 
-def test_profile_of_another_version_is_not_to_be_mended_but_the_program_updated(tmp_path: Path) -> None:
+def test_profile_of_an_unknown_format_fails_with_the_fix_to_update_the_program(tmp_path: Path) -> None:
     file = tmp_path / "mine.toml"
     file.write_text('[calibrated]\ndate = "2026-11-21"\nformat = 99\n', "utf-8")
     row = profile_row(str(file))[1]

@@ -34,7 +34,7 @@ def computer(tmp_path: Path) -> Computer:
 
 
 def repaired_in(computer: Computer, found: Examination) -> tuple[bool, str]:
-    """Return whether it was repaired, and the last thing that was said."""
+    """Repair what the doctor found; return whether anything was changed, and the last line that was said."""
     is_done = repair(found, computer.said.append)
     return is_done, computer.said[-1]
 
@@ -43,7 +43,7 @@ def files_beside(computer: Computer) -> list[str]:
     return sorted(file.name for file in computer.options.parent.iterdir() if file != computer.entries)
 
 
-def test_safe_values_are_written_and_the_file_as_it_was_stays_beside_it(computer: Computer) -> None:
+def test_repair_writes_safe_values_and_keeps_a_backup_of_the_file(computer: Computer) -> None:
     computer.save(Profile(screen=ScreenTable(font=str(computer.font))))
     found = computer.examined(no_window)
     seen = statuses(found)
@@ -83,13 +83,13 @@ def test_the_options_of_26_3_are_repaired_too_and_any_scale_of_the_debug_screen_
     assert computer.options.read_text("utf-8") == repaired
 
 
-def test_an_invalid_debug_screen_scale_becomes_the_games_own(computer: Computer) -> None:
+def test_repair_sets_an_invalid_debug_screen_scale_to_the_default(computer: Computer) -> None:
     computer.options.write_text(GOOD.replace("debugGuiScale:0", "debugGuiScale:half"), "utf-8")
     assert repaired_in(computer, computer.examined(no_window))[0]
     assert computer.options.read_text("utf-8") == GOOD
 
 
-def test_the_gui_scale_is_that_of_the_profile(computer: Computer) -> None:
+def test_repair_sets_the_profiles_gui_scale(computer: Computer) -> None:
     calibrated = CalibratedTable(date="2026-11-21", gui_scale=3)
     computer.save(Profile(screen=ScreenTable(font=str(computer.font)), calibrated=calibrated))
     repaired_in(computer, computer.examined(no_window))
@@ -110,7 +110,7 @@ def uncalibrated(computer: Computer, entries: str | None) -> Computer:
     return computer
 
 
-def test_the_entries_that_are_needed_are_switched_on_where_there_was_no_file(computer: Computer) -> None:
+def test_repair_writes_a_debug_profile_with_the_needed_entries_if_there_was_none(computer: Computer) -> None:
     found = uncalibrated(computer, None).examined(no_window)
     assert statuses(found)["debug entries"] == "fail"
     is_done, said = repaired_in(computer, found)
@@ -126,7 +126,7 @@ def test_the_entries_that_are_needed_are_switched_on_where_there_was_no_file(com
 @pytest.mark.parametrize(
     "before", ['{"profile":"performance"}', "damaged", '{"DataVersion":5023,"custom":{"a:b":"never"}}']
 )
-def test_a_file_of_entries_is_replaced_and_kept_as_it_was(before: str, computer: Computer) -> None:
+def test_repair_replaces_the_debug_profile_and_keeps_a_backup(before: str, computer: Computer) -> None:
     is_done, said = repaired_in(computer, uncalibrated(computer, before).examined(no_window))
     assert is_done
     kept = computer.entries.with_name("debug-profile.json.before-1")
@@ -135,7 +135,7 @@ def test_a_file_of_entries_is_replaced_and_kept_as_it_was(before: str, computer:
     assert statuses(computer.examined(no_window))["debug entries"] == "pass"
 
 
-def test_the_data_version_is_that_of_the_installed_versions_jar(computer: Computer) -> None:
+def test_repair_takes_the_data_version_from_the_installed_versions_jar(computer: Computer) -> None:
     uncalibrated(computer, None)
     computer.save(Profile(calibrated=calibrated().model_copy(update={"version": "26.3"})))
     computer.options.write_text(OF_26_3.replace("version:5023\n", ""), "utf-8")
@@ -147,7 +147,7 @@ def test_the_data_version_is_that_of_the_installed_versions_jar(computer: Comput
     assert json.loads(computer.entries.read_bytes())["DataVersion"] == 5023
 
 
-def test_entries_that_the_game_has_written_meanwhile_are_left_alone(computer: Computer) -> None:
+def test_debug_profile_that_changed_since_the_examination_is_left_alone(computer: Computer) -> None:
     found = uncalibrated(computer, None).examined(no_window)
     computer.entries.write_text("{}", "utf-8")
     with pytest.raises(ProfileError, match="has changed meanwhile"):
@@ -163,7 +163,7 @@ def test_no_backup_is_ever_overwritten(computer: Computer) -> None:
     assert "lang:de_de" in (computer.options.parent / "options.txt.before-1").read_text("utf-8")
 
 
-def test_a_file_that_is_as_it_should_be_is_left_alone(computer: Computer) -> None:
+def test_options_file_with_safe_values_is_left_alone(computer: Computer) -> None:
     computer.options.write_text(GOOD, "utf-8")
     is_done, said = repaired_in(computer, computer.examined(no_window))
     assert (is_done, said) == (False, f"nothing to fix: {computer.options} is as it should be")
@@ -171,7 +171,7 @@ def test_a_file_that_is_as_it_should_be_is_left_alone(computer: Computer) -> Non
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="Windows lets only administrators make links, Wine nobody")
-def test_a_file_that_a_link_leads_to_is_changed_where_it_lies(computer: Computer) -> None:
+def test_repair_writes_through_a_symbolic_link(computer: Computer) -> None:
     shared = computer.system.home / "shared.txt"
     computer.options.rename(shared)
     computer.options.symlink_to(shared)
@@ -187,7 +187,9 @@ def test_a_file_that_a_link_leads_to_is_changed_where_it_lies(computer: Computer
         ("java org.prismlauncher.EntryPoint", "a game runs that may use"),
     ],
 )
-def test_while_a_game_may_run_in_that_folder_nothing_is_written(command: str, message: str, computer: Computer) -> None:
+def test_repair_writes_nothing_while_a_game_may_run_in_that_folder(
+    command: str, message: str, computer: Computer
+) -> None:
     computer.processes = [Process(command.format(folder=computer.options.parent))]
     is_done, said = repaired_in(computer, computer.examined(no_window))
     assert not is_done
@@ -195,19 +197,19 @@ def test_while_a_game_may_run_in_that_folder_nothing_is_written(command: str, me
     assert computer.options.read_text("utf-8") == BAD
 
 
-def test_a_game_in_another_folder_does_not_hinder(computer: Computer) -> None:
+def test_game_running_in_another_folder_does_not_prevent_the_repair(computer: Computer) -> None:
     computer.processes = [Process("java net.minecraft.client.main.Main --gameDir /elsewhere --version 1.20.1")]
     assert repaired_in(computer, computer.examined(no_window))[0]
 
 
-def test_while_its_window_is_there_nothing_is_written(computer: Computer) -> None:
+def test_repair_writes_nothing_while_a_game_window_is_open(computer: Computer) -> None:
     for found in (computer.examined(opened(VirtualClient())), computer.examined(several)):
         is_done, said = repaired_in(computer, found)
         assert (is_done, said) == (False, "nothing was changed: the game is open: close it, and run this again")
     assert computer.options.read_text("utf-8") == BAD
 
 
-def test_unless_the_game_is_known_to_be_closed_nothing_is_written(computer: Computer) -> None:
+def test_repair_writes_nothing_unless_the_game_is_known_to_be_closed(computer: Computer) -> None:
     computer.processes = None
     is_done, said = repaired_in(computer, computer.examined(no_window, session=no_session))
     assert not is_done
@@ -224,7 +226,7 @@ def test_without_options_there_is_nothing_to_fix(computer: Computer) -> None:
     assert repaired_in(computer, computer.examined(no_window)) == (False, "nothing to fix: no options.txt was read")
 
 
-def test_a_file_that_the_game_has_written_meanwhile_is_left_alone(computer: Computer) -> None:
+def test_options_file_that_changed_since_the_examination_is_left_alone(computer: Computer) -> None:
     found = computer.examined(no_window)
     computer.options.write_text(GOOD, "utf-8")
     with pytest.raises(ProfileError, match="has changed meanwhile"):
@@ -235,7 +237,7 @@ def test_a_file_that_the_game_has_written_meanwhile_is_left_alone(computer: Comp
 @pytest.mark.parametrize(
     ("error", "told"), [(OSError("the disk is full"), ProfileError), (KeyboardInterrupt(), KeyboardInterrupt)]
 )
-def test_a_repair_that_breaks_off_leaves_the_file_as_it_was(
+def test_repair_that_fails_or_is_interrupted_leaves_the_file_as_it_was(
     error: BaseException, told: type[BaseException], computer: Computer, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     found = computer.examined(no_window)

@@ -65,14 +65,14 @@ def test_a_debug_screen_that_is_read_passes() -> None:
 
 
 @pytest.mark.parametrize(("is_in_front", "reason"), [(True, "no font to read it with"), (False, "another window")])
-def test_what_can_not_be_checked_is_skipped(is_in_front: bool, reason: str) -> None:
+def test_screen_rows_are_skipped_without_a_font_or_behind_another_window(is_in_front: bool, reason: str) -> None:
     unseen = WindowSnapshot(Fingerprint("Minecraft", (854, 480), None), (854, 480), None, is_in_front, None)
     checks = screen_rows(unseen, None)
     assert [check.name for check in checks] == list(SCREEN_CHECKS)
     assert all(check.status == "skip" and check.detail.startswith(reason) for check in checks)
 
 
-def test_without_a_debug_screen_the_screen_that_is_there_is_named() -> None:
+def test_debug_screen_row_names_the_screen_that_is_shown_instead() -> None:
     pause = rows(snapshot(Reading(problem="no XYZ line: press F3"), "pause", None))
     assert pause["debug screen"] == ("fail", "the Game Menu is open", "click Back to Game")
     assert {status for status, _, _ in list(pause.values())[1:]} == {"skip"}
@@ -80,11 +80,11 @@ def test_without_a_debug_screen_the_screen_that_is_there_is_named() -> None:
     assert unknown["debug screen"] == ("fail", "no XYZ line", "press F3")
 
 
-def test_an_open_chat_is_closed_with_esc() -> None:
+def test_fix_for_an_open_chat_is_to_press_esc() -> None:
     assert rows(snapshot(READ, "chat"))["debug screen"] == ("fail", "the chat is open", "press Esc")
 
 
-def test_a_problem_counts_only_of_a_debug_screen_with_its_position() -> None:
+def test_reading_problem_fails_the_debug_screen_row_only_if_its_position_line_was_found() -> None:
     broken = Reading(problem="XYZ: half a line: widen the window")
     seen = rows(snapshot(broken, "unknown"))
     assert seen["debug screen"] == ("fail", "XYZ: half a line", "widen the window")
@@ -114,7 +114,7 @@ def test_a_reduced_debug_screen_fails_with_its_remedy() -> None:
         (None, "1.21.9", "skip", ""),
     ],
 )
-def test_a_missing_looked_at_line_is_a_fault_with_the_ground_in_view_or_where_it_may_be_off(
+def test_missing_looked_at_line_fails_if_the_ground_is_in_view_or_the_entry_may_be_off(
     pitch: float | None, version: str, status: str, fix: str
 ) -> None:
     row = rows(snapshot(Reading(xyz=(0.5, 64.0, 0.5), yaw=0.0, pitch=pitch), version=version))["looked-at line"]
@@ -130,7 +130,7 @@ def test_a_missing_looked_at_line_is_a_fault_with_the_ground_in_view_or_where_it
         ("pass", "reducedDebugInfo:true\n", False),
     ],
 )
-def test_an_option_that_reduces_it_counts_where_no_debug_screen_was_seen(
+def test_reduced_debug_info_option_counts_only_if_no_debug_screen_was_seen(
     known: str | None, text: str, is_fault: bool
 ) -> None:
     name = CheckName.REDUCED_DEBUG_INFO
@@ -156,7 +156,7 @@ def levelled(frame: Frame, darkest: float, brightest: float) -> Frame:
 
 
 @pytest.mark.parametrize("level", [0, BLACK])
-def test_a_black_picture_names_what_pictures_black(shown: Frame, level: int) -> None:
+def test_black_picture_is_reported_with_its_likely_causes(shown: Frame, level: int) -> None:
     fault = picture_fault(np.full_like(shown, level), FONT)
     assert fault is not None
     assert fault.startswith("the window's picture is black: play in a window")
@@ -167,7 +167,7 @@ def test_a_black_picture_names_what_pictures_black(shown: Frame, level: int) -> 
     ("darkest", "brightest", "says"),
     [(0, 200, FAINT), (0, 120, FAINT), (40, 180, FAINT), (0, 225, FAINT), (90, 255, BRIGHT)],
 )
-def test_text_of_other_brightness_names_what_changes_colours(
+def test_text_that_is_too_faint_or_too_bright_is_reported_with_hdr_as_a_cause(
     darkest: int, brightest: int, says: str, shown: Frame
 ) -> None:
     fault = picture_fault(levelled(shown, darkest, brightest), FONT)
@@ -175,13 +175,13 @@ def test_text_of_other_brightness_names_what_changes_colours(
     assert fault.startswith(f"{says}: switch HDR")
 
 
-def test_a_picture_without_text_has_no_fault_that_is_known() -> None:
+def test_picture_without_text_has_no_known_fault() -> None:
     frame = started(VirtualClient(has_f3=False)).display.grab()
     assert picture_fault(frame, FONT) is None
     assert picture_fault(np.full_like(frame, 128), FONT) is None
 
 
-def test_the_debug_screens_row_says_what_is_wrong_with_the_picture(shown: Frame) -> None:
+def test_debug_screen_row_reports_a_black_picture(shown: Frame) -> None:
     contents = ScreenContents("unknown", None, None, Reading(problem="no debug screen: press F3"))
     rows = [
         screen_rows(WindowSnapshot(WINDOW, (854, 480), None, True, contents, picture), FONT)[0]
@@ -210,7 +210,7 @@ def snapshot_of_size(picture_size: Size, points: Size | None, gui_scale: int | N
         ((854, 480), None, "skip", "this window's points aren't known"),
     ],
 )
-def test_the_scaling_is_measured_on_the_picture(
+def test_scaling_row_compares_the_picture_size_with_the_windows_points(
     picture_size: Size, points: Size | None, status: str, detail: str
 ) -> None:
     row = scaling_row(snapshot_of_size(picture_size, points))
@@ -222,16 +222,14 @@ def test_the_scaling_is_measured_on_the_picture(
     ("size", "scale", "status"),
     [((854, 480), 2, "warn"), ((1280, 720), 3, "warn"), ((959, 540), 2, "pass"), ((958, 540), 2, "warn")],
 )
-def test_below_480_gui_pixels_of_width_a_blocks_line_may_cover_the_facing_line(
-    size: Size, scale: int, status: str
-) -> None:
+def test_window_narrower_than_480_gui_pixels_is_a_warning(size: Size, scale: int, status: str) -> None:
     row = size_row(snapshot_of_size(size, None, scale), None)
     assert row.status == status
     assert row.fix.startswith("" if status == "pass" else f"make the window at least {480 * scale} pixels wide")
     assert bool(row.fix) == (status == "warn")
 
 
-def test_a_window_smaller_than_the_games_screens_fails() -> None:
+def test_window_smaller_than_320_x_240_fails_the_size_row() -> None:
     assert size_row(snapshot_of_size((319, 480), None), None).status == "fail"
     assert size_row(snapshot_of_size((320, 240), None, gui_scale=1), None).status == "warn"
     assert size_row(snapshot_of_size((320, 240), None, gui_scale=None), None).status == "skip"
@@ -239,7 +237,7 @@ def test_a_window_smaller_than_the_games_screens_fails() -> None:
 
 
 @pytest.mark.parametrize(("wanted", "status"), [(2, "pass"), (None, "pass"), (3, "fail")])
-def test_a_gui_scale_is_the_profiles_if_that_names_one(wanted: int | None, status: str) -> None:
+def test_gui_scale_that_differs_from_the_profiles_debug_scale_fails(wanted: int | None, status: str) -> None:
     row = size_row(snapshot_of_size((960, 540), None), Profile(screen=ScreenTable(debug_scale=wanted)))
     assert row.status == status
     assert row.detail.startswith("960 x 540 pixels, GUI scale 2")
@@ -261,7 +259,7 @@ def test_the_scaling_may_differ_from_a_whole_number_by_a_hundredth(pictured: Siz
     assert scaling_row(snapshot_of_size(pictured, (854, 480))).status == status
 
 
-def test_another_window_in_front_is_a_fault() -> None:
+def test_another_window_in_front_fails_its_row() -> None:
     behind = WindowSnapshot(
         Fingerprint("Minecraft", (854, 480), None), (854, 480), None, is_in_front=False, contents=None
     )
@@ -271,7 +269,7 @@ def test_another_window_in_front_is_a_fault() -> None:
     assert [row.name.value for row in rows] == ["game's window", "in front", "display scaling", "size and GUI scale"]
 
 
-def test_a_version_later_than_all_known_ones_is_played_and_says_what_to_look_at() -> None:
+def test_version_later_than_all_known_ones_is_a_warning_with_advice() -> None:
     row = window_row("Minecraft 27.1 - Singleplayer")
     assert (row.status, row.detail.startswith("Minecraft 27.1 is later than 26.4")) == ("warn", True)
     assert row.fix.startswith("look in the calibration's report")

@@ -39,7 +39,7 @@ def test_a_snapshot_of_the_world_is_read() -> None:
 
 
 @pytest.mark.parametrize(("screen", "line"), [("pause", None), ("title", None), ("worlds", None), ("chat", "XYZ:")])
-def test_another_screen_has_its_own_name(screen: ScreenName, line: str | None) -> None:
+def test_snapshot_names_the_screen_that_is_open(screen: ScreenName, line: str | None) -> None:
     client = started(VirtualClient())
     client.game.open(screen)
     client.clock.sleep(0.3)
@@ -47,7 +47,7 @@ def test_another_screen_has_its_own_name(screen: ScreenName, line: str | None) -
     assert not take_snapshot(client.devices, FONT).is_world
 
 
-def test_a_world_without_its_debug_screen_is_unknown() -> None:
+def test_snapshot_calls_the_world_without_its_debug_screen_unknown() -> None:
     assert shown(started(VirtualClient(has_f3=False))) == ("unknown", None, None)
 
 
@@ -68,7 +68,7 @@ def test_a_debug_screen_is_found_where_the_profile_names_another_gui_scale() -> 
         ("26.3", ScreenTable()),
     ],
 )
-def test_under_a_modpacks_title_the_profile_says_which_game_it_is(
+def test_under_a_modpacks_title_the_snapshot_goes_by_the_profiles_version(
     version: str, drawn: ScreenTable, screen: ScreenName, name: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     client = started(VirtualClient(version=version))
@@ -101,7 +101,7 @@ def waited(client: VirtualClient, *, has_font: bool = True) -> tuple[WindowSnaps
     return snapshot, client.clock.now() - began, said
 
 
-def test_what_can_be_read_is_not_waited_for() -> None:
+def test_doctor_does_not_wait_if_the_screen_is_read_or_there_is_no_font() -> None:
     snapshot, seconds, said = waited(started(VirtualClient()))
     assert snapshot.is_world
     assert seconds < 0.01
@@ -131,7 +131,7 @@ def test_a_person_in_the_game_has_five_seconds_to_close_a_menu() -> None:
     assert said[0].endswith("the doctor looks for 5 s.")
 
 
-def test_the_five_seconds_begin_when_the_player_comes() -> None:
+def test_five_seconds_to_close_a_menu_begin_once_the_game_is_in_front() -> None:
     client = started(VirtualClient())
     client.game.open("pause")
     client.set_front(is_in_front=False)

@@ -92,14 +92,14 @@ def test_letters_that_fit_no_jar_are_reported_with_the_jars_that_were_tried(tmp_
     assert client.window.down == set()
 
 
-def test_another_language_is_named_where_it_is_known(tmp_path: Path) -> None:
+def test_error_names_another_language_that_options_txt_gives(tmp_path: Path) -> None:
     client = started(VirtualClient(font=flipped()))
     sources = dataclasses.replace(sources_in(tmp_path), options={"lang": "ja_jp"})
     with pytest.raises(FontError, match=r"set the language to English \(it is ja_jp\)"):
         find_font(context_over(client), Profile(), sources)
 
 
-def test_force_unicode_is_named_where_it_is_known(tmp_path: Path) -> None:
+def test_error_names_force_unicode_font_that_options_txt_has_on(tmp_path: Path) -> None:
     client = started(VirtualClient(font=flipped()))
     sources = dataclasses.replace(sources_in(tmp_path), options={"forceUnicodeFont": "true"})
     with pytest.raises(FontError, match="Force Unicode Font is on"):
@@ -165,7 +165,7 @@ def test_without_any_font_nothing_is_pressed(tmp_path: Path) -> None:
     assert client.game.ticks == 0
 
 
-def test_profile_and_picture_are_written_and_the_version_of_the_title_asked_for(tmp_path: Path) -> None:
+def test_profile_and_picture_are_written_for_the_version_in_the_window_title(tmp_path: Path) -> None:
     file, asked = tmp_path / "mine.toml", list[str | None]()
 
     def sources(version: str | None) -> FontSources:
@@ -181,7 +181,7 @@ def test_profile_and_picture_are_written_and_the_version_of_the_title_asked_for(
     assert picture == tmp_path / "mine-font.png"
 
 
-def test_a_clipboard_that_can_not_be_used_leaves_only_the_comparison_out(tmp_path: Path) -> None:
+def test_unusable_clipboard_only_omits_the_comparison_with_f3_c(tmp_path: Path) -> None:
     client = started(VirtualClient())
 
     def refuse() -> str:
@@ -213,7 +213,7 @@ def test_a_named_jar_that_can_not_be_read_is_reported_before_a_window_is_looked_
     assert not (tmp_path / "mine.toml").exists()
 
 
-def test_what_goes_wrong_leaves_the_old_profile_to_the_byte(tmp_path: Path) -> None:
+def test_failed_font_calibration_leaves_the_old_profile_unchanged(tmp_path: Path) -> None:
     file = tmp_path / "mine.toml"
     file.write_text("# mine\n[keys]\nleft = 'd'\nright = 'a'\n", "utf-8")
     client = started(VirtualClient(font=flipped()))
@@ -239,7 +239,7 @@ def grey_with(share: float, shade: int) -> Frame:
     return frame
 
 
-def test_a_unicode_font_is_named_whatever_is_seen() -> None:
+def test_error_names_force_unicode_font_even_if_a_font_was_painted() -> None:
     error = nothing_fits([painted(2)], [MINE], {"forceUnicodeFont": "true"})
     assert isinstance(error, FontError)
     assert "Force Unicode Font is on" in str(error)
@@ -260,12 +260,12 @@ def test_a_picture_with_little_of_the_texts_colour_shows_no_debug_screen(share: 
     assert "mine.jar" in str(error)
 
 
-def test_a_pack_with_finer_letters_is_to_be_taken_off_and_not_to_be_named() -> None:
+def test_error_advises_to_take_off_a_pack_with_finer_letters() -> None:
     assert "take off a pack with finer letters" in str(nothing_fits([grey_with(0.003, 224)], [MINE], {}))
 
 
 @pytest.mark.parametrize("shade", [220, 224, 228])
-def test_with_text_that_no_font_reads_the_font_is_the_wrong_one(shade: int) -> None:
+def test_text_that_no_font_reads_is_reported_as_a_wrong_font(shade: int) -> None:
     error = nothing_fits([grey_with(0.003, shade)], [MINE], {})
     assert isinstance(error, FontError)
     assert "fit none of these fonts: mine.jar" in str(error)

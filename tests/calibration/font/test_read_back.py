@@ -31,7 +31,7 @@ def test_without_a_debug_screen_there_is_nothing_to_read() -> None:
 
 
 @pytest.mark.parametrize("shift", [(0, 0), (1, 0), (0, 1), (1, 1)])
-def test_the_phase_is_by_how_much_the_picture_is_shifted(shift: tuple[int, int]) -> None:
+def test_phase_is_the_shift_of_the_picture_in_pixels(shift: tuple[int, int]) -> None:
     frame = started(VirtualClient(scale=3, size=(1280, 720))).display.grab()
     assert phase_of(np.roll(frame, shift, (1, 0)), FONT) == shift
 

@@ -38,7 +38,7 @@ def tried(game: Path, version: str | None = "1.20.1") -> list[str]:
     return [path.name for path in font_sources(System("linux", game.parent, {}), version).paths]
 
 
-def test_without_packs_it_is_the_jar_of_the_version_then_others(game: Path) -> None:
+def test_without_packs_the_versions_own_jar_comes_first_then_the_others(game: Path) -> None:
     assert tried(game) == ["1.20.1.jar", "1.12.2.jar"]
     assert tried(game, "1.12.2") == ["1.12.2.jar", "1.20.1.jar"]
 
@@ -48,7 +48,7 @@ def test_packs_come_first_and_the_topmost_before_the_others(game: Path) -> None:
     assert tried(game)[:2] == ["faithful", "plain.zip"]
 
 
-def test_1_12_names_packs_without_a_word_before(game: Path) -> None:
+def test_pack_named_without_a_file_prefix_as_in_1_12_is_found(game: Path) -> None:
     options(game, '["plain.zip"]')
     assert tried(game)[0] == "plain.zip"
 
@@ -59,13 +59,13 @@ def test_packs_that_are_not_there_or_can_not_be_read_are_left_out(game: Path, pa
     assert tried(game) == ["1.20.1.jar", "1.12.2.jar"]
 
 
-def test_what_the_options_say_is_known(game: Path) -> None:
+def test_font_sources_include_the_language_and_force_unicode_options(game: Path) -> None:
     options(game, "[]")
     known = font_sources(System("linux", game.parent, {}), None).options
     assert (known["lang"], known["forceUnicodeFont"]) == ("de_de", "true")
 
 
-def test_a_computer_without_the_game_has_none(tmp_path: Path) -> None:
+def test_computer_without_the_game_has_no_font_sources(tmp_path: Path) -> None:
     assert font_sources(System("linux", tmp_path, {}), "1.20.1") == font_sources(System("linux", tmp_path, {}), None)
     assert font_sources(System("linux", tmp_path, {}), None).paths == ()
 
@@ -96,7 +96,7 @@ def jar_in(folder: Path, version: str) -> Path:
 
 
 @pytest.mark.parametrize("font", ELSEWHERE)
-def test_a_font_of_another_computer_is_this_ones_of_that_version(font: str, tmp_path: Path) -> None:
+def test_recording_from_another_computer_uses_this_computers_jar_of_that_version(font: str, tmp_path: Path) -> None:
     file, here = recording_of(f'[screen]\nfont = "{font}"\n', tmp_path), System("linux", tmp_path, {})
     with pytest.raises(FontError, match="isn't on this computer: name its client jar with --font"):
         font_of_recording(file, here)

@@ -48,7 +48,9 @@ def mended(profile: DebugProfile, data_version: int | None = None) -> dict[str, 
 
 @pytest.mark.parametrize("version", WORDS)
 @pytest.mark.parametrize("text", [None, '{"profile":"default"}'])
-def test_without_the_file_and_by_default_the_block_alone_is_off(version: str, text: str | None, tmp_path: Path) -> None:
+def test_without_a_file_or_with_the_default_profile_only_the_block_entry_is_off(
+    version: str, text: str | None, tmp_path: Path
+) -> None:
     profile = loaded(tmp_path, text, version)
     assert profile.off == [profile.needed[1]]
     assert profile.problem is None
@@ -57,11 +59,11 @@ def test_without_the_file_and_by_default_the_block_alone_is_off(version: str, te
 
 
 @pytest.mark.parametrize(("version", "target"), TARGETS.items())
-def test_the_entry_for_the_block_has_its_name_of_that_version(version: str, target: str, tmp_path: Path) -> None:
+def test_block_entry_is_named_as_in_each_version(version: str, target: str, tmp_path: Path) -> None:
     assert loaded(tmp_path, None, version).needed == ("player_position", target)
 
 
-def test_the_profile_for_performance_shows_neither_and_is_written_out(tmp_path: Path) -> None:
+def test_performance_profile_has_both_entries_off_and_is_written_out_as_custom_entries(tmp_path: Path) -> None:
     profile = loaded(tmp_path, '{"DataVersion":5023,"profile":"performance"}')
     assert profile.off == ["player_position", "looking_at_block_state"]
     written = mended(profile)
@@ -78,7 +80,7 @@ def test_the_profile_for_performance_shows_neither_and_is_written_out(tmp_path: 
     }
 
 
-def test_what_is_needed_may_be_on_always_or_with_the_rest(tmp_path: Path) -> None:
+def test_needed_entry_counts_as_on_if_it_is_always_on_or_in_the_overlay(tmp_path: Path) -> None:
     words = {"player_position": "inOverlay", "looking_at_block_state": "alwaysOn"}
     assert loaded(tmp_path, custom(5023, **words)).off == []
     assert loaded(tmp_path, custom(5023, **{**words, "player_position": "never"})).off == ["player_position"]
@@ -96,7 +98,7 @@ def test_other_entries_and_those_of_mods_stay_as_they_are(tmp_path: Path) -> Non
     }
 
 
-def test_the_former_name_of_the_block_counts_in_an_older_file_alone(tmp_path: Path) -> None:
+def test_former_name_of_the_block_entry_counts_only_in_an_older_file(tmp_path: Path) -> None:
     words = {"player_position": "inOverlay", "looking_at_block": "inOverlay"}
     assert loaded(tmp_path, custom(4671, **words), "26.1").off == []
     assert loaded(tmp_path, custom(None, **words), "26.1").off == []
@@ -107,7 +109,7 @@ def test_the_former_name_of_the_block_counts_in_an_older_file_alone(tmp_path: Pa
     assert "minecraft:looking_at_block" not in str(mended(off)).replace("looking_at_block_state", "")
 
 
-def test_the_word_of_1_21_10_counts_in_an_older_file_and_is_written_as_the_one_of_today(tmp_path: Path) -> None:
+def test_word_in_f3_counts_only_in_an_older_file_and_is_written_as_in_overlay(tmp_path: Path) -> None:
     words = {"player_position": "inF3", "looking_at_block": "never"}
     profile = loaded(tmp_path, custom(4556, **words), "1.21.11")
     assert profile.problem is None
@@ -131,7 +133,7 @@ def test_the_word_of_1_21_10_counts_in_an_older_file_and_is_written_as_the_one_o
         ("1.21.10", None, 4556, 4556),
     ],
 )
-def test_the_data_version_is_the_files_else_the_jars_else_a_known_one(
+def test_data_version_comes_from_the_file_then_the_jar_then_a_known_one(
     version: str, own: int | None, of_jar: int | None, written: int, tmp_path: Path
 ) -> None:
     assert mended(loaded(tmp_path, custom(own, fps="never"), version), of_jar)["DataVersion"] == written
@@ -149,7 +151,9 @@ def test_an_invalid_data_version_counts_as_missing(number: object, tmp_path: Pat
         *('{"custom":{"minecraft:fps":"sometimes"}}', '{"custom":{"minecraft:fps":true}}', '{"custom":{"fps":{}}}'),
     ],
 )
-def test_what_the_game_can_not_read_is_damaged_and_mended_from_its_default_entries(text: str, tmp_path: Path) -> None:
+def test_file_that_the_game_cannot_read_is_damaged_and_mended_from_the_default_entries(
+    text: str, tmp_path: Path
+) -> None:
     profile = loaded(tmp_path, text)
     assert profile.problem is not None
     assert "\n" not in profile.problem
@@ -159,16 +163,16 @@ def test_what_the_game_can_not_read_is_damaged_and_mended_from_its_default_entri
     }
 
 
-def test_bytes_that_are_no_text_are_damaged(tmp_path: Path) -> None:
+def test_file_that_is_not_text_is_damaged(tmp_path: Path) -> None:
     (tmp_path / "debug-profile.json").write_bytes(b"\xff\xfe\x00{")
     assert load_debug_profile(tmp_path, "26.3").problem == "it is no JSON"
 
 
-def test_an_object_without_entries_shows_nothing(tmp_path: Path) -> None:
+def test_empty_json_object_has_both_entries_off(tmp_path: Path) -> None:
     assert loaded(tmp_path, "{}").off == ["player_position", "looking_at_block_state"]
 
 
-def test_a_file_that_can_not_be_read_says_so(tmp_path: Path) -> None:
+def test_unreadable_file_is_an_error(tmp_path: Path) -> None:
     (tmp_path / "debug-profile.json").mkdir()
     with pytest.raises(ProfileError, match="can't be read"):
         load_debug_profile(tmp_path, "26.3")
@@ -182,7 +186,7 @@ def test_a_file_that_can_not_be_read_says_so(tmp_path: Path) -> None:
     ),
     data_version=st.one_of(st.none(), st.integers(4000, 6000)),
 )
-def test_a_mended_file_has_what_is_needed_and_is_read_as_it_was_written(
+def test_mended_file_has_the_needed_entries_on_and_keeps_the_others(
     version: str, entries: dict[str, object], data_version: int | None, tmp_path_factory: pytest.TempPathFactory
 ) -> None:
     folder = tmp_path_factory.mktemp("game")
@@ -197,7 +201,7 @@ def test_a_mended_file_has_what_is_needed_and_is_read_as_it_was_written(
     ("data_version", "version"),
     [(3465, "1.21.8"), (4553, "1.21.8"), (4554, "1.21.9"), (4670, "1.21.9"), (4671, "1.21.11"), (4672, "26.1")],
 )
-def test_options_txt_tells_which_ids_and_words_the_installed_version_has(data_version: int, version: str) -> None:
+def test_data_version_tells_the_game_version_whose_entry_names_apply(data_version: int, version: str) -> None:
     assert version_of_data(data_version) == version
 
 
@@ -213,7 +217,7 @@ def test_options_txt_tells_which_ids_and_words_the_installed_version_has(data_ve
         (None, None),
     ],
 )
-def test_a_jar_tells_its_data_version_if_that_is_a_likely_one(
+def test_data_version_is_read_from_a_jar_only_if_it_is_plausible(
     text: str | None, found: int | None, tmp_path: Path
 ) -> None:
     jar = tmp_path / "26.3.jar"
@@ -222,7 +226,7 @@ def test_a_jar_tells_its_data_version_if_that_is_a_likely_one(
     assert data_version_in(jar) == found
 
 
-def test_a_file_that_is_no_jar_tells_no_version(tmp_path: Path) -> None:
+def test_broken_or_missing_jar_has_no_data_version(tmp_path: Path) -> None:
     (tmp_path / "x.jar").write_bytes(b"PK\x03\x04 and no more")
     assert data_version_in(tmp_path / "x.jar") is None
     assert data_version_in(tmp_path / "none.jar") is None

@@ -57,9 +57,7 @@ def jar(file: Path, content: str = "classes") -> Path:
         ("linux", "Documents/curseforge/minecraft/Instances/Mine", "CurseForge"),
     ],
 )
-def test_each_launchers_game_is_found_where_it_keeps_it(
-    platform: Platform, way: str, launcher: str, tmp_path: Path
-) -> None:
+def test_game_folder_of_each_launcher_is_found(platform: Platform, way: str, launcher: str, tmp_path: Path) -> None:
     folder = game(tmp_path / way)
     found = game_folders(system(tmp_path, platform))
     assert [(each.path, each.launcher, each.options) for each in found] == [(folder, launcher, folder / "options.txt")]
@@ -92,7 +90,7 @@ def test_every_launcher_has_a_folder_on_every_platform() -> None:
     assert all(launcher.roots[platform] for launcher in LAUNCHERS for platform in ("windows", "macos", "linux"))
 
 
-def test_a_variable_of_the_environment_moves_a_launchers_folder(tmp_path: Path) -> None:
+def test_environment_variable_moves_a_launchers_folder(tmp_path: Path) -> None:
     elsewhere = tmp_path / "elsewhere"
     moved = game(elsewhere / "PrismLauncher" / "instances" / "Mine" / ".minecraft")
     assert [each.path for each in game_folders(system(tmp_path, XDG_DATA_HOME=str(elsewhere)))] == [moved]
@@ -106,7 +104,7 @@ def test_a_variable_without_an_absolute_path_is_ignored(variable: str, tmp_path:
     assert [each.path for each in game_folders(system(tmp_path, XDG_DATA_HOME=variable))] == [folder]
 
 
-def test_the_last_used_game_comes_first_and_a_running_one_writes_its_log(tmp_path: Path) -> None:
+def test_game_with_the_newest_options_or_log_comes_first(tmp_path: Path) -> None:
     old, new = game(tmp_path / ".minecraft", 5000.0), game(tmp_path / ".local/share/ModrinthApp/profiles/New", 6000.0)
     assert [each.path for each in game_folders(system(tmp_path))] == [new, old]
     log = jar(old / "logs" / "latest.log")
@@ -140,20 +138,20 @@ def test_the_game_of_the_right_version_comes_first_and_one_of_a_wrong_version_la
         '{"components": [{"uid": "net.minecraft", "version": ""}]}',
     ],
 )
-def test_a_launchers_note_that_can_not_be_read_leaves_the_version_open(broken: str, tmp_path: Path) -> None:
+def test_unreadable_launcher_file_leaves_the_version_unknown(broken: str, tmp_path: Path) -> None:
     folder = game(tmp_path / ".local/share/PrismLauncher/instances/Mine/.minecraft")
     (folder.parent / "mmc-pack.json").write_text(broken, "utf-8")
     assert [each.version for each in game_folders(system(tmp_path))] == [None]
 
 
-def test_a_folder_without_options_was_never_played_in(tmp_path: Path) -> None:
+def test_folder_without_an_options_file_is_left_out(tmp_path: Path) -> None:
     (tmp_path / ".minecraft" / "options.txt").mkdir(parents=True)
     (tmp_path / ".local/share/PrismLauncher/instances/New/.minecraft").mkdir(parents=True)
     assert game_folders(system(tmp_path)) == []
     assert client_jars(system(tmp_path)) == []
 
 
-def test_a_game_that_two_ways_lead_to_is_one(tmp_path: Path) -> None:
+def test_game_folder_reached_by_two_paths_is_listed_once(tmp_path: Path) -> None:
     game(tmp_path / ".local/share/PrismLauncher/instances/Mine/.minecraft")
     (tmp_path / ".local/share/PrismLauncher/instances/Mine/minecraft").symlink_to(".minecraft")
     assert len(game_folders(system(tmp_path))) == 1
@@ -179,12 +177,12 @@ def test_the_plain_jar_of_the_version_comes_first_then_older_ones_then_newer_one
     ]
 
 
-def test_without_a_version_the_newest_comes_first_and_years_are_newer(tmp_path: Path) -> None:
+def test_without_a_version_the_newest_jar_comes_first_and_26_1_is_newer_than_1_21(tmp_path: Path) -> None:
     jars_of(tmp_path, "1.9", "1.21.10", "1.21.9", "26.1", "1.21")
     assert [each.stem for each in client_jars(system(tmp_path))] == ["26.1", "1.21.10", "1.21.9", "1.21", "1.9"]
 
 
-def test_what_a_mod_loader_leaves_is_no_client_jar(tmp_path: Path) -> None:
+def test_mod_loader_jars_are_not_taken_for_client_jars(tmp_path: Path) -> None:
     jars_of(tmp_path, "fabric-loader-0.15.11-1.20.1")
     jar(tmp_path / ".minecraft/versions/1.20.1/1.20.1.jar", content="")
     assert client_jars(system(tmp_path), "1.20.1") == []
@@ -194,7 +192,7 @@ VERSIONS = st.lists(st.tuples(st.integers(1, 30), st.integers(0, 30), st.integer
 
 
 @given(numbers=VERSIONS, data=st.data())
-def test_whatever_jars_there_are_a_jar_of_the_very_version_is_first(
+def test_jar_of_the_wanted_version_comes_first_among_any_jars(
     numbers: list[tuple[int, int, int]], data: st.DataObject, tmp_path_factory: pytest.TempPathFactory
 ) -> None:
     names = sorted({".".join(str(part) for part in each) for each in numbers})
@@ -206,7 +204,7 @@ def test_whatever_jars_there_are_a_jar_of_the_very_version_is_first(
     assert sorted(found) == names
 
 
-def test_this_computer_is_one_of_the_three() -> None:
+def test_this_computer_has_a_known_platform_and_an_absolute_home() -> None:
     here = System.here()
     assert here.platform in ("linux", "macos", "windows")
     assert here.home.is_absolute()

@@ -54,7 +54,7 @@ def test_the_options_of_a_new_version_are_read() -> None:
     assert read.key("debug.overlay") == "f3"
 
 
-def test_the_numbers_of_1_12_are_the_same_keys() -> None:
+def test_key_numbers_of_1_12_are_read_as_the_same_key_names() -> None:
     read = options(OLD)
     actions = ("attack", "use", "forward", "left", "back", "right", "sneak", "chat", "command", "hotbar.1", "hotbar.9")
     assert [read.key(action) for action in actions] == [
@@ -87,7 +87,7 @@ def test_the_numbers_of_1_12_are_the_same_keys() -> None:
         ("", None),
     ],
 )
-def test_a_key_has_the_name_that_profiles_give_it(value: str, name: str | None) -> None:
+def test_key_codes_are_translated_to_the_key_names_of_profiles(value: str, name: str | None) -> None:
     assert key_name(value) == name
 
 
@@ -98,7 +98,7 @@ def test_two_names_of_one_key_are_the_same() -> None:
     assert not is_same_key("left", "a")
 
 
-def test_of_an_option_that_stands_there_twice_the_last_counts() -> None:
+def test_last_value_of_a_repeated_option_counts() -> None:
     assert options("autoJump:false\nautoJump:true\n").values["autoJump"] == "true"
 
 
@@ -120,7 +120,7 @@ def test_a_patched_file_of_1_12_keeps_its_line_ends() -> None:
     assert b"".join(read.with_values(SAFE).lines) == OLD.encode()
 
 
-def test_a_last_line_without_an_end_stays_without_one() -> None:
+def test_last_line_without_a_line_end_gets_none() -> None:
     assert options("lang:de_de\nautoJump:true").with_values(SAFE).lines == (b"lang:en_us\n", b"autoJump:false")
 
 
@@ -134,7 +134,7 @@ LINES = st.lists(
 
 
 @given(LINES, st.sampled_from([b"\n", b"\r\n"]))
-def test_whatever_else_a_file_holds_stays_to_the_byte(lines: list[bytes], end: bytes) -> None:
+def test_patching_one_option_leaves_all_other_bytes_unchanged(lines: list[bytes], end: bytes) -> None:
     read = OptionsTxt(HERE, tuple(line + end for line in lines))
     patched = read.with_values({"autoJump": "false"})
     assert patched.lines == tuple(
@@ -157,7 +157,7 @@ def test_a_file_that_can_not_be_read_is_a_one_line_error(tmp_path: Path) -> None
         assert "\n" not in str(caught.value)
 
 
-def test_a_file_is_read_as_its_bytes_are(tmp_path: Path) -> None:
+def test_options_file_that_is_not_utf_8_is_kept_byte_for_byte(tmp_path: Path) -> None:
     file = tmp_path / "options.txt"
     file.write_bytes(OLD.encode() + b"key_mod:\xff\xfe\n")
     assert b"".join(load_options(file).lines) == file.read_bytes()

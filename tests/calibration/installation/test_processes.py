@@ -22,7 +22,7 @@ def games(tmp_path: Path) -> tuple[Path, Path]:
     return folders
 
 
-def test_a_game_holds_the_folder_that_its_command_line_names(games: tuple[Path, Path]) -> None:
+def test_game_has_the_folder_on_its_command_line_open(games: tuple[Path, Path]) -> None:
     here, there = games
     for line in (f"{PLAIN} --gameDir {there} --assetsDir /a", f'"javaw.exe" net.minecraft.Main --gameDir "{there}"'):
         game = Process(line, folder=here)
@@ -31,7 +31,7 @@ def test_a_game_holds_the_folder_that_its_command_line_names(games: tuple[Path, 
         assert folders_played([game]) == [there]
 
 
-def test_a_game_that_names_no_folder_holds_the_one_that_it_runs_in(games: tuple[Path, Path]) -> None:
+def test_game_without_a_folder_on_its_command_line_has_its_working_folder_open(games: tuple[Path, Path]) -> None:
     here, there = games
     game = Process(PRISM, folder=there)
     assert may_have_open(game, there)
@@ -39,7 +39,7 @@ def test_a_game_that_names_no_folder_holds_the_one_that_it_runs_in(games: tuple[
     assert folders_played([game]) == [there]
 
 
-def test_a_game_of_which_nothing_is_known_may_hold_any_folder_and_is_played_in_none(games: tuple[Path, Path]) -> None:
+def test_game_with_no_known_folder_may_have_any_folder_open_but_is_played_in_none(games: tuple[Path, Path]) -> None:
     game = Process(PRISM)
     assert all(may_have_open(game, folder) for folder in games)
     assert folders_played([game]) == []
@@ -55,7 +55,7 @@ def test_a_game_of_which_nothing_is_known_may_hold_any_folder_and_is_played_in_n
         "",
     ],
 )
-def test_other_programs_hold_nothing(command: str, games: tuple[Path, Path]) -> None:
+def test_other_programs_have_no_game_folder_open(command: str, games: tuple[Path, Path]) -> None:
     assert not may_have_open(Process(command, folder=games[0]), games[0])
     assert folders_played([Process(command, folder=games[0])]) == []
 
@@ -74,9 +74,7 @@ def test_the_processes_of_linux_are_read(tmp_path: Path, games: tuple[Path, Path
     assert folders_played(found) == [games[1]]
 
 
-def test_a_system_that_answers_nothing_is_not_taken_for_one_without_games(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_unreadable_process_list_is_unknown_and_not_empty(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     assert running_processes("linux", tmp_path / "proc") is None
     monkeypatch.setenv("PATH", str(tmp_path))
     assert running_processes("windows") is None
@@ -84,7 +82,7 @@ def test_a_system_that_answers_nothing_is_not_taken_for_one_without_games(
 
 if sys.platform.startswith("linux"):
 
-    def test_this_process_is_among_those_that_run() -> None:
+    def test_running_processes_include_this_one() -> None:
         found = running_processes("linux")
         assert found
         assert any(each.folder == Path(os.path.realpath(".")) and "pytest" in each.command for each in found)
@@ -92,7 +90,7 @@ if sys.platform.startswith("linux"):
 
 if shutil.which("ps"):
 
-    def test_a_mac_is_asked_for_its_processes_in_the_way_that_works_here_too() -> None:
+    def test_process_query_for_macos_finds_this_process_here_too() -> None:
         found = running_processes("macos")
         assert found
         assert any("pytest" in each.command for each in found)

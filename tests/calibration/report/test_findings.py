@@ -67,7 +67,7 @@ def test_the_doctors_table_stays_until_there_is_a_new_one(profile: Path) -> None
     assert (kept.checked, [check.status for check in kept.checks]) == ("2026-11-20", ["fail"])
 
 
-def test_beside_a_profile_that_was_never_calibrated_lies_nothing(tmp_path: Path) -> None:
+def test_profile_that_was_never_calibrated_has_no_findings(tmp_path: Path) -> None:
     assert load_findings(tmp_path / "mine.toml") == Findings()
 
 
@@ -87,7 +87,7 @@ def test_a_damaged_list_is_a_one_line_error_that_says_what_to_do(profile: Path, 
         load_findings(profile)
 
 
-def test_a_list_never_names_a_file_outside_its_folder(profile: Path) -> None:
+def test_list_that_names_a_file_outside_its_folder_is_refused(profile: Path) -> None:
     save_findings(profile, [found("font", pictures=(ReportPicture("grey", GREY),))], today="2026-11-21")
     path = findings_folder(profile) / "found.json"
     path.write_text(path.read_text().replace("font-1.png", "../font-1.png"))

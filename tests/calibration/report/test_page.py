@@ -112,7 +112,7 @@ def test_the_reports_list_of_contents_stands_at_its_top_word_for_word() -> None:
     assert contents(MADE)[2].startswith("2 pictures of the game's window")
 
 
-def test_each_picture_comes_back_as_it_was_kept() -> None:
+def test_small_picture_is_embedded_without_loss() -> None:
     noise = np.random.default_rng(0).integers(0, 256, (20, 30, 3), np.uint8)
     step = dataclasses.replace(FONT, pictures=(ReportPicture("noise", noise),))
     (image,) = page(dataclasses.replace(MADE, findings=Findings((step,)))).of("img")
@@ -124,13 +124,13 @@ def test_each_picture_comes_back_as_it_was_kept() -> None:
     assert (image["width"], image["height"], image["alt"]) == ("30", "20", "noise")
 
 
-def test_a_large_picture_is_made_small_enough() -> None:
+def test_large_picture_is_embedded_as_a_small_jpeg() -> None:
     noise = np.random.default_rng(0).integers(0, 256, (540, 960, 3), np.uint8)
     assert data_uri(noise).startswith("data:image/jpeg;base64,")
     assert len(data_uri(noise)) < 2 * SMALL_BYTES
 
 
-def test_without_pictures_it_has_none_and_says_so() -> None:
+def test_report_without_pictures_says_how_many_were_left_out() -> None:
     bare = dataclasses.replace(MADE, with_pictures=False)
     seen = page(bare)
     assert seen.of("img") == []
@@ -149,7 +149,7 @@ HTML = st.text(st.sampled_from("<>&\"'/={}%abim sx"), max_size=30)
 
 
 @given(HTML)
-def test_whatever_a_text_holds_it_is_text(text: str) -> None:
+def test_html_in_any_text_is_escaped(text: str) -> None:
     step = StepFindings(text, text, (text,), 1, (ReportPicture(text, GREY, text),))
     check = CheckFinding(text, "warn", text, text)
     plain = page(MADE)
@@ -161,7 +161,7 @@ def test_whatever_a_text_holds_it_is_text(text: str) -> None:
 
 
 @given(st.text("bdfhjkqvwz", min_size=4, max_size=8), st.sampled_from(["", "'", " ", "/", ".", "_7"]))
-def test_the_report_names_nobody(name: str, around: str) -> None:
+def test_user_names_and_home_folders_are_removed_from_the_report(name: str, around: str) -> None:
     names = Names(f"/home/{name}", (name,))
     text = f"{around}{name}{around} in /home/{name}/x, C:\\Users\\{name}\\x"
     step = StepFindings("font", text, (text,), 1, (ReportPicture(text, GREY, text),))

@@ -48,12 +48,12 @@ def test_the_name_ann_is_removed_from_a_text(text: str, left: str) -> None:
         ("by Ann Lee.", "by <user>."),
     ],
 )
-def test_windows_paths_are_known_in_every_spelling(text: str, left: str) -> None:
+def test_windows_home_folder_and_user_name_are_replaced_in_every_spelling(text: str, left: str) -> None:
     assert LEE.removed_from(text) == left
 
 
 @given(NAMES, SENTENCES, SENTENCES)
-def test_the_name_of_an_account_is_in_no_text_as_a_word(name: str, before: str, behind: str) -> None:
+def test_account_name_is_removed_from_any_text(name: str, before: str, behind: str) -> None:
     names = Names(f"/home/{name}", (name,))
     left = names.removed_from(f"{before} {name} {behind} /home/{name}/x '{name}'")
     letter = r"[^\W\d_]"
@@ -62,19 +62,19 @@ def test_the_name_of_an_account_is_in_no_text_as_a_word(name: str, before: str, 
 
 
 @given(SPACED, st.sampled_from(["C:\\Users\\", "C:\\\\Users\\\\", "D:/users/", "/Users/", "/c/Users/"]), SENTENCES)
-def test_no_home_folder_of_anybody_else_is_named(name: str, folder: str, before: str) -> None:
+def test_user_name_in_somebody_elses_home_folder_is_replaced(name: str, folder: str, before: str) -> None:
     left = ANN.removed_from(f"{before}\n{folder}{name}/saves")
     assert left.endswith(f"{folder}<user>/saves")
 
 
 @given(NAMES, st.sampled_from(["/", "\\", "\\\\"]), st.text("abc.", min_size=1, max_size=5))
-def test_the_home_folder_is_a_tilde_however_its_path_is_written(name: str, slash: str, inside: str) -> None:
+def test_home_folder_becomes_a_tilde_with_any_kind_of_slash(name: str, slash: str, inside: str) -> None:
     names = Names(f"/srv/{name}", ())
     assert names.removed_from(f"{slash}srv{slash}{name}{slash}{inside}") == f"~{slash}{inside}"
 
 
 @given(NAMES, SENTENCES)
-def test_removing_twice_is_removing_once(name: str, text: str) -> None:
+def test_removing_names_twice_changes_nothing_more(name: str, text: str) -> None:
     assume("~" not in name)
     names = Names(f"/home/{name}", (name, "user"))
     once = names.removed_from(text)
@@ -94,12 +94,12 @@ def test_a_one_letter_name_is_not_removed_from_a_text() -> None:
     assert Names("/root", ("x",)).removed_from("1024 x 768") == "1024 x 768"
 
 
-def test_the_names_of_here_are_those_of_the_environment_and_of_the_home_folder() -> None:
+def test_names_to_remove_come_from_the_environment_and_the_home_folder() -> None:
     names = names_here({"USER": "ann", "USERNAME": "Ann Lee", "LOGNAME": ""})
     assert {"ann", "Ann Lee", Path.home().name} <= set(names.users)
     assert names.home == str(Path.home())
     assert names.removed_from(str(Path.home() / "x")) == f"~{Path('/x')}"
 
 
-def test_an_account_with_the_games_name_is_left_or_no_title_could_be_read() -> None:
+def test_account_named_minecraft_is_not_removed() -> None:
     assert "minecraft" not in {name.lower() for name in names_here({"USER": "Minecraft", "LOGNAME": "minecraft"}).users}

@@ -30,7 +30,7 @@ def holds(model: GaitModel, seed: int, count: int = 24) -> list[HoldTrace]:
     ]
 
 
-def test_a_path_is_the_one_that_the_facts_give() -> None:
+def test_path_of_a_plain_hold_has_the_distances_of_facts_md() -> None:
     assert [round(PLAIN.covered(held), 3) for held in range(7)] == [0, 0.210, 0.427, 0.642, 0.857, 1.073, 1.291]
     # The first steps of a hold of two ticks: a push, 1.546 pushes, and then 0.546 of the step before.
     first = PLAIN.path(2)[:4]
@@ -38,7 +38,7 @@ def test_a_path_is_the_one_that_the_facts_give() -> None:
 
 
 @given(st.integers(1, 30))
-def test_a_path_ends_where_the_live_path_expects_it(held: int) -> None:
+def test_path_ends_at_the_displacement_that_the_live_path_expects(held: int) -> None:
     assert PLAIN.covered(held) == pytest.approx(displacement(held))
     ice = physics.Ground(slipperiness=0.98, speed=1.4)
     model = GaitModel(physics.INPUT * ice.acceleration, ice.inertia)
@@ -47,7 +47,7 @@ def test_a_path_ends_where_the_live_path_expects_it(held: int) -> None:
 
 @pytest.mark.parametrize("seed", range(2))
 @pytest.mark.parametrize(("slipperiness", "speed"), [(0.6, 1.0), (0.6, 0.7), (0.6, 1.4), (0.8, 1.2), (0.98, 1.0)])
-def test_the_model_of_any_floor_and_effect_is_found_from_holds(slipperiness: float, speed: float, seed: int) -> None:
+def test_fit_finds_the_gait_model_of_other_floors_and_speeds(slipperiness: float, speed: float, seed: int) -> None:
     ground = physics.Ground(slipperiness, speed)
     model = fit_gait(holds(GaitModel(physics.INPUT * ground.acceleration, ground.inertia), seed))
     assert model.inertia == pytest.approx(ground.inertia, abs=0.003)
@@ -62,7 +62,7 @@ def test_with_a_known_inertia_few_long_holds_give_the_push() -> None:
 
 
 @given(st.integers(1, 12), st.sampled_from([-2, -1, 0, 1, 2]))
-def test_a_hold_goes_with_the_ticks_that_felt_it_not_with_those_asked_for(asked: int, more: int) -> None:
+def test_hold_is_matched_to_the_ticks_that_it_lasted_and_not_to_those_asked_for(asked: int, more: int) -> None:
     felt = max(1, asked + more)
     match = match_hold(trace_of(PLAIN, asked * TICK_S, felt), PLAIN)
     assert match.ticks == felt
@@ -88,6 +88,6 @@ def test_too_few_holds_give_no_model() -> None:
         fit_gait(stopped)
 
 
-def test_the_root_of_the_mean_square_of_nothing_is_nothing() -> None:
+def test_rms_of_an_empty_list_is_zero() -> None:
     assert rms([]) == 0
     assert rms([3, -4]) == pytest.approx(12.5**0.5)

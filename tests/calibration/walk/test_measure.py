@@ -80,7 +80,7 @@ def test_walking_is_measured_where_the_player_stands_and_ends_there(
 
 
 @pytest.mark.slow
-def test_at_ten_frames_a_second_the_walk_is_measured_and_no_latency_is_too_short(tmp_path: Path) -> None:
+def test_walk_at_ten_frames_a_second_is_measured_with_a_round_trip_of_at_least_40_ms(tmp_path: Path) -> None:
     found = measured(VirtualClient(seed=1, pitch=65.0, fps=10.0), tmp_path)
     walk_table = found.profile.walk
     assert walk_table.covered == pytest.approx(WalkTable().covered, abs=0.002)
@@ -107,7 +107,7 @@ class Glider:
             client.display.show(client.game.view())
 
 
-def test_a_walk_without_ticks_gives_a_measured_line_and_a_warning(tmp_path: Path) -> None:
+def test_game_without_ticks_gets_a_linear_walk_and_a_warning(tmp_path: Path) -> None:
     client = VirtualClient(pitch=65.0, speed=0.0)
     Glider(client, 4.3)
     found = measured(client, tmp_path)
@@ -132,7 +132,9 @@ def test_a_walk_that_fails_brings_the_player_back(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("floor", [None, pytest.param("stone", marks=pytest.mark.slow)])
-def test_a_hole_in_a_marked_arena_is_refilled_or_found_before_it_walks(floor: str | None, tmp_path: Path) -> None:
+def test_hole_in_a_marked_arena_is_refilled_or_is_an_error_that_brings_the_player_back(
+    floor: str | None, tmp_path: Path
+) -> None:
     client = VirtualClient(seed=2, pitch=20.0)
     arena = Arena.around((-20, 64, 31), "east").model_copy(update={"floor": floor})
     (x, y, z), _ = arena.region
@@ -152,7 +154,7 @@ def test_a_hole_in_a_marked_arena_is_refilled_or_found_before_it_walks(floor: st
 
 
 def test_a_hole_is_refilled_before_any_key_is_tried(tmp_path: Path) -> None:
-    """A key that does nothing ends it as soon as it begins to walk."""
+    """The key that does nothing ends the measurement at its first step."""
     client = VirtualClient(seed=2, pitch=20.0)
     arena = Arena.around((-20, 64, 31), "east").model_copy(update={"floor": "stone"})
     x, y, z = arena.block_of((7, 7))
@@ -164,7 +166,9 @@ def test_a_hole_is_refilled_before_any_key_is_tried(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(("size", "middle"), [(15, 7), pytest.param(20, 10, marks=pytest.mark.slow)])
-def test_in_a_marked_arena_it_walks_in_the_middle_and_comes_back(size: int, middle: int, tmp_path: Path) -> None:
+def test_walk_in_a_marked_arena_stays_near_its_middle_and_returns_to_the_start(
+    size: int, middle: int, tmp_path: Path
+) -> None:
     client = VirtualClient(seed=2, pitch=20.0, swaps_sides=True)
     arena = Arena.around((-20, 64, 31), "east", size=size)
     visited = set()
@@ -208,7 +212,7 @@ def test_other_frame_rates_and_latencies_give_the_same_walk_and_their_own_round_
 
 @pytest.mark.slow
 @pytest.mark.parametrize(("slipperiness", "speed", "steady"), [(0.6, 1.4, 6.044), (0.8, 0.8, 2.429), (0.6, 1.2, 5.181)])
-def test_other_physics_are_measured_as_they_are_and_said(
+def test_other_floors_and_speeds_are_measured_and_reported(
     slipperiness: float, speed: float, steady: float, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     client = VirtualClient(seed=4, pitch=65.0, slipperiness=slipperiness, speed=speed)
@@ -221,7 +225,9 @@ def test_other_physics_are_measured_as_they_are_and_said(
 
 @pytest.mark.slow
 @pytest.mark.parametrize("seed", range(4))
-def test_lag_costs_holds_but_not_accuracy(seed: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_occasional_lag_does_not_spoil_the_accuracy_of_the_walk(
+    seed: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     client = VirtualClient(seed=seed, pitch=65.0)
     client.mishaps.every(0.12, ("lag", "frozen_frame", "late_key"))
     found = measured(client, tmp_path)
@@ -232,7 +238,7 @@ def test_lag_costs_holds_but_not_accuracy(seed: int, tmp_path: Path, monkeypatch
 
 @pytest.mark.slow
 @pytest.mark.parametrize("seed", range(12))
-def test_in_a_quick_game_that_stalls_the_latencies_are_its_own(seed: int, tmp_path: Path) -> None:
+def test_latencies_of_a_quick_game_are_measured_although_it_stalls(seed: int, tmp_path: Path) -> None:
     client = VirtualClient(seed=seed, pitch=65.0, input_latency_s=(0.001, 0.004), capture_latency_s=(0.002, 0.006))
     rng = np.random.default_rng(seed)
 
@@ -263,7 +269,7 @@ def pit(client: VirtualClient) -> None:
 
 
 @pytest.mark.parametrize(("spoil", "where"), [(wall, r"0\.[123] blocks left"), (pit, r"0\.[789] blocks right")])
-def test_a_block_or_an_edge_in_the_way_is_found_sneaking(
+def test_block_or_edge_in_the_way_is_an_error_that_says_where(
     spoil: Callable[[VirtualClient], None], where: str, tmp_path: Path
 ) -> None:
     client = VirtualClient(pitch=65.0)
@@ -274,7 +280,7 @@ def test_a_block_or_an_edge_in_the_way_is_found_sneaking(
     assert client.window.down == set()
 
 
-def test_wrong_keys_are_distinguished_from_a_floor_that_is_not_free(tmp_path: Path) -> None:
+def test_key_that_does_not_move_the_player_is_named_in_the_error(tmp_path: Path) -> None:
     client = VirtualClient(pitch=65.0)
     profile = profile_of(client, tmp_path).model_copy(update={"keys": KeysTable(left="j")})
     with pytest.raises(UserError, match="the key j doesn't move the player left"):
@@ -282,14 +288,16 @@ def test_wrong_keys_are_distinguished_from_a_floor_that_is_not_free(tmp_path: Pa
 
 
 @pytest.mark.slow
-def test_a_sneaking_key_that_does_nothing_is_noticed(tmp_path: Path) -> None:
+def test_sneaking_key_without_an_effect_is_an_error(tmp_path: Path) -> None:
     client = VirtualClient(pitch=65.0)
     profile = profile_of(client, tmp_path).model_copy(update={"keys": KeysTable(sneak="k")})
     with pytest.raises(NotConfirmedError, match="sneaking is no slower than walking"):
         measured(client, tmp_path, profile)
 
 
-def test_in_a_game_that_others_may_share_nothing_is_pressed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_walk_in_a_shared_game_is_refused_and_the_player_does_not_move(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     client = VirtualClient(pitch=20.0)
     client.realm.world.put((-20, 64, 35), "stone")
     before = client.built
@@ -308,7 +316,7 @@ def kept(tmp_path: Path) -> Path:
 
 
 @pytest.mark.slow
-def test_what_was_found_is_written_with_its_picture(kept: Path) -> None:
+def test_measured_walk_is_written_into_the_profile_with_its_picture(kept: Path) -> None:
     found, picture = calibrate_walk(kept, context_on(VirtualClient(pitch=65.0)))
     assert load_profile(kept) == found.profile
     assert picture == kept.with_name("mine-walk.png")
@@ -326,7 +334,7 @@ def test_what_was_found_is_written_with_its_picture(kept: Path) -> None:
         ("f3_off", McNestedError),
     ],
 )
-def test_interference_is_a_one_line_error_and_leaves_the_profile_as_it_was(
+def test_interference_during_the_walk_is_a_one_line_error_and_leaves_the_profile_unchanged(
     kind: Kind, error: type[McNestedError], after_s: float, kept: Path
 ) -> None:
     before = kept.read_bytes()
@@ -342,7 +350,7 @@ def test_interference_is_a_one_line_error_and_leaves_the_profile_as_it_was(
 
 @pytest.mark.slow
 @pytest.mark.parametrize("kind", ["moved_window", "resized_window", "black_frame"])
-def test_a_window_that_is_moved_resized_or_hidden_for_a_moment_makes_no_difference(kind: Kind, tmp_path: Path) -> None:
+def test_moved_resized_or_briefly_black_window_does_not_disturb_the_measurement(kind: Kind, tmp_path: Path) -> None:
     client = VirtualClient(seed=6, pitch=65.0)
     for after_s in (3.0, 12.0, 25.0):
         client.mishaps.plan(kind, after_s)

@@ -30,12 +30,12 @@ def hold(
 
 
 @given(st.floats(0.002, 0.06), st.floats(0.01, 0.09))
-def test_the_round_trip_is_the_way_in_and_the_way_out(felt_s: float, seen_s: float) -> None:
+def test_round_trip_is_the_sum_of_input_and_capture_latency(felt_s: float, seen_s: float) -> None:
     holds = [hold(100 + index * 0.831, 0.2 + index % 5 * 0.037, felt_s, seen_s) for index in range(60)]
     assert round_trip_of(holds) == pytest.approx(felt_s + seen_s, abs=0.002)
 
 
-def test_jitter_of_every_event_moves_it_by_milliseconds_only() -> None:
+def test_jitter_of_every_event_moves_the_round_trip_by_at_most_4_ms() -> None:
     rng = np.random.default_rng(5)
     holds = [hold(100 + index * 0.831, 0.2 + index % 5 * 0.037, 0.0125, 0.028, rng) for index in range(60)]
     assert round_trip_of(holds) == pytest.approx(0.0405, abs=0.004)
@@ -45,11 +45,11 @@ HOLDS = [hold(100 + index * 0.831, 0.2 + index % 5 * 0.037, 0.0125, 0.028) for i
 LAGGED = [hold(200 + index * 0.831, 0.25, 0.3, 0.2) for index in range(4)]
 
 
-def test_a_few_holds_that_lag_delayed_move_it_little() -> None:
+def test_few_lagging_holds_move_the_round_trip_by_at_most_4_ms() -> None:
     assert round_trip_of([*HOLDS, *LAGGED]) == pytest.approx(0.0405, abs=0.004)
 
 
-def test_few_edges_disagree_where_a_game_stalls_at_times_and_many_where_frames_are_slow() -> None:
+def test_few_key_edges_disagree_if_a_game_stalls_at_times_and_many_if_frames_are_slow() -> None:
     assert disagreeing(HOLDS, 0.0405) == 0.0
     # 8 ms more: edges of 40.5 to 44.5 ms out of 40.5 to 90.5 don't fit.
     assert disagreeing(HOLDS, 0.0485) == pytest.approx(4 / 50, abs=0.03)
@@ -63,7 +63,7 @@ def test_few_edges_disagree_where_a_game_stalls_at_times_and_many_where_frames_a
     assert disagreeing(slow, round_trip_of(slow)) > 0.3
 
 
-def test_steps_off_the_tick_phase_of_their_hold_are_late() -> None:
+def test_steps_off_their_holds_tick_phase_count_as_late() -> None:
     steady = hold(100.0, 0.3, 0.0125, 0.028)
     assert steady.late_steps == 0
     moved = tuple((tick, since + 0.06 * (tick > 7), at + 0.06 * (tick > 7)) for tick, since, at in steady.steps)

@@ -60,7 +60,7 @@ def test_a_hold_that_moved_nothing_or_the_other_way_has_no_trace() -> None:
     assert SurveyHold("forward", "walk", 4, recorded((0.0, -0.1))).trace is None
 
 
-def test_the_largest_sideways_distance_counts() -> None:
+def test_hold_reports_its_largest_sideways_distance() -> None:
     assert SurveyHold("forward", "walk", 4, recorded((0.0, 0.1), (-0.07, 0.2), (0.02, 0.3))).aside == pytest.approx(
         0.07
     )
@@ -124,21 +124,21 @@ def test_a_step_leads_in_one_direction_or_in_none(offset: tuple[float, float], w
     assert direction_of(offset) == way
 
 
-def test_whatever_the_four_keys_do_each_ends_at_its_own_way() -> None:
+def test_corrected_keys_assign_each_key_to_the_direction_that_it_moves() -> None:
     for led in itertools.permutations(DIRECTIONS):
         keys = corrected_keys(KEYS, dict(zip(DIRECTIONS, led, strict=True)))
         for way, found in zip(DIRECTIONS, led, strict=True):
             assert getattr(keys, found) == getattr(KEYS, way)
 
 
-def test_swapped_sides_are_said() -> None:
+def test_description_of_the_keys_says_that_left_and_right_were_swapped() -> None:
     keys = corrected_keys(KEYS, {"forward": "forward", "back": "back", "left": "right", "right": "left"})
     assert (keys.left, keys.right, keys.forward, keys.sneak) == ("d", "a", "w", "left.shift")
     assert describe_keys(KEYS, keys).endswith("the profile had left and right the other way round")
     assert describe_keys(KEYS, KEYS) == "w goes forward, s goes back, a goes left, d goes right"
 
 
-def test_a_key_without_effect_and_two_that_go_the_same_way_are_mistakes() -> None:
+def test_key_without_an_effect_or_two_keys_of_one_direction_are_an_error() -> None:
     with pytest.raises(UserError, match="the key a doesn't move the player left"):
         corrected_keys(KEYS, {"forward": "forward", "back": "back", "left": None, "right": "right"})
     with pytest.raises(UserError, match="don't go four ways"):

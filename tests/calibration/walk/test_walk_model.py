@@ -85,7 +85,7 @@ def test_a_game_lags_if_more_than_a_tenth_of_the_holds_is_late_or_an_outlier(pla
     assert not replace(plain, late=2, outliers=2).is_lagging
 
 
-def test_only_where_frames_are_slow_the_round_trip_is_taken_for_longer_than_it_looks(plain: WalkModel) -> None:
+def test_round_trip_is_raised_to_the_default_only_if_frames_are_slow(plain: WalkModel) -> None:
     usual = INPUT_LATENCY_S + CAPTURE_LATENCY_S
     quick = replace(plain, round_trip_s=0.011)
     for stalling in (quick, replace(quick, late=10, outliers=6), replace(quick, disagreeing=0.12)):
@@ -160,7 +160,7 @@ def test_a_line_that_begins_below_zero_still_grows_with_every_tick() -> None:
     assert list(late.table.covered[:3]) == pytest.approx([SHORTEST_STEP * ticks for ticks in (1, 2, 3)])
 
 
-def test_holds_of_the_real_walk_lie_on_no_line() -> None:
+def test_holds_of_the_real_walk_are_not_fitted_by_a_line() -> None:
     assert empirical_walk(holds_led(lambda held_s: displacement(round(held_s / 0.05 + 0.01)), 20), USUAL) is None
 
 

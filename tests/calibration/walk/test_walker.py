@@ -46,7 +46,7 @@ def test_a_hold_is_recorded_step_by_step_until_standstill(game: FakeGame, keys: 
     assert game.down == set()
 
 
-def test_its_journal_is_told_of_each_hold_in_ticks(game: FakeGame) -> None:
+def test_walker_notes_each_hold_in_ticks_in_the_journal(game: FakeGame) -> None:
     notes = Notes()
     connection = connection_to(game)
     connection.journal = notes
@@ -59,7 +59,7 @@ def test_its_journal_is_told_of_each_hold_in_ticks(game: FakeGame) -> None:
     ]
 
 
-def test_each_sighting_says_between_which_two_looks_a_step_came(game: FakeGame) -> None:
+def test_each_sighting_gives_the_times_of_the_looks_before_and_after_its_step(game: FakeGame) -> None:
     recorded = _walker(game).hold(0.2, "w")
     assert all(0 < sighting.at - sighting.since < 0.012 for sighting in recorded.sightings)
     gaps = [after.at - before.at for before, after in zip(recorded.sightings, recorded.sightings[1:], strict=False)]
@@ -86,7 +86,7 @@ def test_a_key_without_effect_is_watched_for_a_second(game: FakeGame) -> None:
     assert game.clock.now() - recorded.released == pytest.approx(1.0, abs=0.02)
 
 
-def test_after_a_hold_nothing_is_waited_for_where_it_ended_and_elsewhere_five_ticks(game: FakeGame) -> None:
+def test_stand_waits_five_ticks_only_if_the_player_has_left_the_last_holds_end(game: FakeGame) -> None:
     walker = _walker(game)
     walker.hold(0.1, "w")
     began = game.clock.now()
