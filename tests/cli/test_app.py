@@ -30,7 +30,7 @@ def test_only_the_verb_that_is_named_is_loaded() -> None:
 
 
 @pytest.mark.parametrize("verb", MOVED)
-def test_a_former_name_is_refused_with_the_new_one(verb: str, capsys: pytest.CaptureFixture[str]) -> None:
+def test_former_verb_name_is_refused_with_its_new_name(verb: str, capsys: pytest.CaptureFixture[str]) -> None:
     assert run(verb, "--help") == 2
     assert capsys.readouterr().err == f"mc-nested: {verb} is now mc-nested {MOVED[verb]}\n"
     words = [word for word in MOVED[verb].partition(",")[0].split() if not word.startswith("--")]
@@ -48,7 +48,7 @@ def test_a_former_name_is_refused_with_the_new_one(verb: str, capsys: pytest.Cap
         (OSError("odd"), 2, "the system: odd: name another path"),
     ],
 )
-def test_an_error_is_one_line_and_its_exit_code(
+def test_error_is_printed_in_one_line_and_sets_the_exit_code(
     error: BaseException, code: int, said: str, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     def app_that_fails(_: object) -> object:
@@ -69,19 +69,19 @@ def test_an_error_is_one_line_and_its_exit_code(
     assert shown.count("\n") == 1
 
 
-def test_the_version_is_the_packages(capsys: pytest.CaptureFixture[str]) -> None:
+def test_version_option_prints_the_package_version(capsys: pytest.CaptureFixture[str]) -> None:
     assert run("--version") == 0
     assert capsys.readouterr().out == f"mc-nested {importlib.metadata.version('mc-nested')}\n"
 
 
-def test_nothing_but_the_verb_asks_for_help(capsys: pytest.CaptureFixture[str]) -> None:
+def test_command_without_words_prints_the_help(capsys: pytest.CaptureFixture[str]) -> None:
     assert run() == 0
     printed = capsys.readouterr().out
     for verb in ("train", "play", "scenarios", "calibrate"):
         assert verb in printed
 
 
-def test_what_draws_no_figure_loads_no_matplotlib() -> None:
+def test_calibrate_and_doctor_do_not_import_matplotlib() -> None:
     code = "import sys, mc_nested.cli.calibrate, mc_nested.cli.doctor; sys.exit('matplotlib' in sys.modules)"
     subprocess.run([sys.executable, "-c", code], check=True)
 
@@ -93,7 +93,7 @@ def test_importing_everything_needs_no_display() -> None:
 
 
 @pytest.mark.parametrize(("ending", "code"), [(KeyboardInterrupt(), 130), (EndedBySignal(15), 143)])
-def test_whoever_stops_a_verb_is_told_in_one_line(
+def test_stopped_verb_says_so_in_one_line(
     ending: BaseException, code: int, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     def stop() -> list[str]:
@@ -117,8 +117,6 @@ def test_whoever_stops_a_verb_is_told_in_one_line(
         ),
     ],
 )
-def test_an_option_before_the_verb_of_a_verb_is_refused(
-    words: list[str], says: str, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_option_before_a_sub_verb_is_refused(words: list[str], says: str, capsys: pytest.CaptureFixture[str]) -> None:
     assert run(*words) == 2
     assert capsys.readouterr().err == f"mc-nested: {says}\n"

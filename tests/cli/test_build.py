@@ -74,7 +74,7 @@ def test_a_drawing_is_built(tmp_path: Path, capsys: pytest.CaptureFixture[str]) 
         (["line", "--backend", "live", "--profile", "none.toml"], "no profile 'none.toml'"),
     ],
 )
-def test_what_can_not_be_built_is_one_line_and_exit_code_2(
+def test_build_mistake_is_one_line_and_exit_code_2(
     words: list[str], says: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     (tmp_path / "hut.schem").write_bytes(sponge(HUT))
@@ -91,7 +91,7 @@ def test_what_can_not_be_built_is_one_line_and_exit_code_2(
     assert printed.err.count("\n") == 1
 
 
-def test_json_says_what_was_built(capsys: pytest.CaptureFixture[str]) -> None:
+def test_json_gives_scenario_blocks_material_and_steps(capsys: pytest.CaptureFixture[str]) -> None:
     assert run("build", "line", "--json") == 0
     printed = capsys.readouterr()
     found = json.loads(printed.out)
@@ -100,13 +100,13 @@ def test_json_says_what_was_built(capsys: pytest.CaptureFixture[str]) -> None:
     assert printed.err == ""
 
 
-def test_quiet_says_only_what_was_built(capsys: pytest.CaptureFixture[str]) -> None:
+def test_quiet_prints_only_the_result(capsys: pytest.CaptureFixture[str]) -> None:
     assert run("build", "line", "--quiet") == 0
     assert capsys.readouterr() == ("  built 11 of 11 blocks, of stone, in 13 steps\n", "")
 
 
 @pytest.mark.usefixtures("profile")
-def test_in_a_live_game_build_says_how_to_put_back_what_stood_there(
+def test_live_build_says_how_to_put_back_the_earlier_ground(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     open_live(monkeypatch, float("inf"))
@@ -131,7 +131,7 @@ def test_in_a_live_game_build_says_how_to_put_back_what_stood_there(
         ),
     ],
 )
-def test_if_nothing_was_copied_build_says_so_before_it_changes_anything(
+def test_live_build_says_first_if_there_is_no_copy_of_the_ground(
     changes: dict[str, object],
     words: list[str],
     says: str,
@@ -145,7 +145,7 @@ def test_if_nothing_was_copied_build_says_so_before_it_changes_anything(
     assert says in capsys.readouterr().err.splitlines()[0]
 
 
-def test_what_can_not_be_put_back_is_not_cleared_unless_that_is_said(
+def test_live_build_without_a_copy_of_the_ground_is_refused_unless_yes_is_given(
     profile: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     save_profile(Profile(arena=COPIED).model_copy(update=UNCOPIED), profile)

@@ -59,7 +59,7 @@ def failing(error: BaseException, *, is_needed: bool = True) -> CalibrationStep:
     return CalibrationStep("clicks", step, is_needed)
 
 
-def test_each_step_is_said_with_what_it_found_and_the_report_is_made(
+def test_guided_run_prints_each_steps_findings_and_makes_the_report(
     monkeypatch: pytest.MonkeyPatch, client: VirtualClient, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     profile = tmp_path / "mine.toml"
@@ -81,7 +81,7 @@ def test_each_step_is_said_with_what_it_found_and_the_report_is_made(
     assert "GUI scale 2" in (tmp_path / "mine-calibration.html").read_text("utf-8")
 
 
-def test_for_a_program_it_prints_what_each_step_found_and_what_is_missing(
+def test_json_gives_each_steps_findings_and_the_steps_left_out(
     monkeypatch: pytest.MonkeyPatch, client: VirtualClient, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     nothing = failing(LiveError("no button is to be seen"), is_needed=False)
@@ -100,7 +100,7 @@ def test_for_a_program_it_prints_what_each_step_found_and_what_is_missing(
     assert "1/2 Font and screen" in printed.err
 
 
-def test_quietly_it_says_only_what_became_of_it(
+def test_quiet_prints_only_the_result(
     monkeypatch: pytest.MonkeyPatch, client: VirtualClient, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     set_up(monkeypatch, client, with_font(tmp_path))
@@ -111,7 +111,7 @@ def test_quietly_it_says_only_what_became_of_it(
 
 
 @pytest.mark.parametrize("words", [[], ["--quiet"], ["--json"]])
-def test_what_the_player_has_to_do_is_said_in_any_case(
+def test_instructions_to_the_player_are_printed_even_with_quiet_or_json(
     words: list[str],
     monkeypatch: pytest.MonkeyPatch,
     client: VirtualClient,
@@ -129,7 +129,7 @@ def test_what_the_player_has_to_do_is_said_in_any_case(
     assert "Switch to the game.\n" in (printed.err if words else printed.out)
 
 
-def test_a_failing_step_is_one_line_and_leaves_nothing(
+def test_failing_step_is_a_one_line_error_and_writes_nothing(
     monkeypatch: pytest.MonkeyPatch, client: VirtualClient, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     set_up(monkeypatch, client, with_font(tmp_path), failing(LiveError("no button is to be seen")))
@@ -139,7 +139,7 @@ def test_a_failing_step_is_one_line_and_leaves_nothing(
     assert list(tmp_path.glob("mine*")) == []
 
 
-def test_ctrl_c_is_one_line_and_leaves_nothing(
+def test_ctrl_c_is_one_line_and_writes_nothing(
     monkeypatch: pytest.MonkeyPatch, client: VirtualClient, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     set_up(monkeypatch, client, with_font(tmp_path), failing(KeyboardInterrupt()))
@@ -148,7 +148,7 @@ def test_ctrl_c_is_one_line_and_leaves_nothing(
     assert list(tmp_path.glob("mine*")) == []
 
 
-def test_a_row_of_the_doctors_that_all_needs_ends_it_with_its_remedy(
+def test_failing_gate_row_of_the_doctor_ends_the_run_with_its_fix(
     monkeypatch: pytest.MonkeyPatch, client: VirtualClient, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     set_up(monkeypatch, client, with_font(tmp_path), failing="in front")
@@ -157,7 +157,7 @@ def test_a_row_of_the_doctors_that_all_needs_ends_it_with_its_remedy(
     assert (said.out, said.err) == ("", "mc-nested: in front: it is wrong: mend it\n")
 
 
-def test_a_cell_outside_the_arena_is_one_line_before_anything(
+def test_cell_outside_the_arena_is_refused_in_one_line_and_nothing_is_written(
     monkeypatch: pytest.MonkeyPatch, client: VirtualClient, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.setattr(calibrate_steps, "context_opener", lambda *_: context_opener_for(client))
@@ -168,7 +168,7 @@ def test_a_cell_outside_the_arena_is_one_line_before_anything(
     assert list(tmp_path.iterdir()) == []
 
 
-def test_the_steps_know_the_profiles_file_and_the_game_whether_a_server_is_allowed(
+def test_options_reach_the_steps_and_server_allowed_reaches_the_game(
     monkeypatch: pytest.MonkeyPatch, client: VirtualClient, tmp_path: Path
 ) -> None:
     given: dict[str, object] = {}

@@ -51,7 +51,7 @@ def file(shared: VirtualClient, tmp_path: Path) -> Path:
     return kept_profile(shared, tmp_path)
 
 
-def test_what_was_found_is_printed_and_the_font_is_written_into_a_new_profile(
+def test_font_step_prints_its_findings_and_writes_the_font_into_a_new_profile(
     client: VirtualClient, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     file, font = tmp_path / "mine.toml", font_file_in(tmp_path)
@@ -70,7 +70,7 @@ def test_what_was_found_is_printed_and_the_font_is_written_into_a_new_profile(
     [("nowhere.jar", "there is no nowhere.jar"), ("notes.png", "notes.png")],
     ids=["no file", "no font"],
 )
-def test_a_font_that_can_not_be_used_is_one_line_and_nothing_is_written(
+def test_unusable_font_is_refused_in_one_line_and_nothing_is_written(
     font: str,
     message: str,
     client: VirtualClient,
@@ -88,7 +88,7 @@ def test_a_font_that_can_not_be_used_is_one_line_and_nothing_is_written(
     assert client.window.strays == []
 
 
-def test_an_arena_is_built_and_undone_where_that_is_allowed_and_each_says_which_file_was_written(
+def test_arena_step_builds_and_undoes_in_a_shared_game_if_allowed_and_names_the_file(
     shared: VirtualClient, file: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     assert run("calibrate", "arena", "--yes", "--server-allowed", "--profile", file) == 0
@@ -99,7 +99,7 @@ def test_an_arena_is_built_and_undone_where_that_is_allowed_and_each_says_which_
     assert capsys.readouterr().out.splitlines()[-1] == f"written to {file}"
 
 
-def test_the_arena_is_as_large_as_was_asked_for_and_a_size_that_none_has_is_one_line(
+def test_arena_has_the_size_asked_for_and_an_impossible_size_is_refused_in_one_line(
     shared: VirtualClient, file: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     before = file.read_bytes()
@@ -113,7 +113,7 @@ def test_the_arena_is_as_large_as_was_asked_for_and_a_size_that_none_has_is_one_
     assert load_profile(file).marked_arena().size == 20
 
 
-def test_marking_and_undoing_at_once_is_one_line_and_nothing_is_written(
+def test_mark_only_with_undo_is_refused_in_one_line_and_nothing_is_written(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     assert run("calibrate", "arena", "--mark-only", "--undo", "--profile", tmp_path / "new.toml") == 2
@@ -122,7 +122,7 @@ def test_marking_and_undoing_at_once_is_one_line_and_nothing_is_written(
     assert list(tmp_path.iterdir()) == []
 
 
-def test_from_a_bare_profile_to_points_that_are_shown(
+def test_font_and_clicks_steps_make_a_new_profile_and_show_its_points(
     client: VirtualClient, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     file = tmp_path / "mine.toml"
@@ -165,7 +165,7 @@ def test_a_mistake_is_one_line_and_nothing_is_written(
 
 
 @pytest.mark.slow
-def test_what_was_measured_is_printed_and_written(
+def test_walk_step_prints_and_writes_the_measured_walk(
     client: VirtualClient, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     file = kept_profile(client, tmp_path)
@@ -179,7 +179,7 @@ def test_what_was_measured_is_printed_and_written(
 
 
 @pytest.mark.parametrize("step", ["arena", "walk"])
-def test_in_a_shared_game_nothing_is_built_and_nobody_walks(
+def test_arena_and_walk_steps_are_refused_in_a_shared_game(
     step: str, shared: VirtualClient, file: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     before = file.read_bytes()
@@ -191,7 +191,7 @@ def test_in_a_shared_game_nothing_is_built_and_nobody_walks(
 
 
 @pytest.mark.usefixtures("shared")
-def test_a_shared_game_is_walked_in_where_that_is_allowed(
+def test_walk_step_runs_in_a_shared_game_only_with_server_allowed(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
 
@@ -254,7 +254,9 @@ def asked(monkeypatch: pytest.MonkeyPatch) -> OnlyQuestion:
 
 @pytest.mark.parametrize("is_viewed", [True, False])
 @pytest.mark.parametrize("yes", [True, False])
-def test_its_questions_and_its_journal_go_to_the_view(asked: OnlyQuestion, is_viewed: bool, yes: bool) -> None:
+def test_calibration_asks_its_questions_through_the_view_and_notes_its_journal_there(
+    asked: OnlyQuestion, is_viewed: bool, yes: bool
+) -> None:
     def in_the_terminal(_question: str) -> bool:
         return True
 

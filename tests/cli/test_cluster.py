@@ -52,7 +52,9 @@ def content(out: Path) -> dict[str, bytes]:
 
 
 @pytest.mark.parametrize("jobs", ["1", "7"])
-def test_an_experiment_writes_the_same_bytes(jobs: str, url: str, words: list[str], here: Path, tmp_path: Path) -> None:
+def test_experiment_on_a_cluster_writes_the_same_bytes_as_here(
+    jobs: str, url: str, words: list[str], here: Path, tmp_path: Path
+) -> None:
     assert run(*words, "--cluster", url, "--jobs", jobs, "--out", tmp_path / "there") == 0
     assert content(tmp_path / "there") == content(here)
 
@@ -70,7 +72,7 @@ def whole(long: list[str], tmp_path_factory: pytest.TempPathFactory) -> dict[str
 
 
 @pytest.mark.parametrize(("first", "then"), [([], ["--cluster", "URL"]), (["--cluster", "URL"], [])])
-def test_it_is_stopped_on_one_side_and_goes_on_at_the_other(
+def test_experiment_stopped_here_or_on_a_cluster_is_resumed_on_the_other_to_the_same_bytes(
     first: list[str], then: list[str], url: str, long: list[str], whole: dict[str, bytes], tmp_path: Path
 ) -> None:
     cut = tmp_path / "cut"
@@ -85,9 +87,7 @@ def test_it_is_stopped_on_one_side_and_goes_on_at_the_other(
     assert content(cut) == whole
 
 
-def test_a_sweep_and_a_benchmark_write_the_same_bytes_with_a_worker_that_a_nanny_keeps(
-    words: list[str], tmp_path: Path
-) -> None:
+def test_sweep_and_benchmark_write_the_same_bytes_on_a_worker_with_a_nanny(words: list[str], tmp_path: Path) -> None:
     _, *own, trials, one, quiet = words
     sweep = ["study", "sweep", *own, trials, one, "--episodes", "2", quiet]
     benchmark = ["study", "benchmark", "--designs", "1", "--agents", "nested", "--presets", words[4]]

@@ -18,16 +18,14 @@ __all__ = ["leftovers"]
 pytestmark = LEFTOVERS
 
 
-def test_without_an_address_the_other_options_are_a_mistake(tmp_path: Path) -> None:
+def test_keys_or_insecure_without_a_cluster_address_is_refused(tmp_path: Path) -> None:
     assert cluster_of(None, None, insecure=False) is None
     for keys, insecure in ((tmp_path, False), (None, True)):
         with pytest.raises(ClusterError, match="name one with --cluster"):
             cluster_of(None, keys, insecure=insecure)
 
 
-def test_a_scheduler_without_a_worker_is_waited_for_and_then_said(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_scheduler_that_gets_no_worker_in_time_is_an_error(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(cluster_options, "FIRST_WORKER_S", 0.5)
     with scheduler(tmp_path) as url, pytest.raises(ClusterError, match="has no worker: start some"):
         workers_of(SchedulerAddress(url, None), Output(quiet=True))

@@ -64,7 +64,7 @@ def folder(tmp_path: Path) -> Path:
     return tmp_path
 
 
-def test_bash_gets_a_word_a_line_of_a_process_of_its_own(folder: Path) -> None:
+def test_bash_gets_one_word_a_line_from_a_new_process(folder: Path) -> None:
     answer = asked(folder, COMP_WORDS="mc-nested re", COMP_CWORD="1", _MC_NESTED_COMPLETE="complete_bash")
     assert (answer.returncode, answer.stderr) == (0, "")
     assert sorted(answer.stdout.split()) == sorted(verb for verb in VERBS if verb.startswith("re"))
@@ -90,7 +90,9 @@ def test_bash_gets_a_word_a_line_of_a_process_of_its_own(folder: Path) -> None:
         ("nothing x", []),
     ],
 )
-def test_bash_gets_what_can_stand_there(typed: str, completed: list[str], asked_here: AskedHere) -> None:
+def test_bash_gets_the_words_that_can_stand_at_that_place(
+    typed: str, completed: list[str], asked_here: AskedHere
+) -> None:
     words = ["mc-nested", *typed.split(" ")]
     variables = {"COMP_WORDS": " ".join(words), "COMP_CWORD": str(len(words) - 1)}
     code, answer = asked_here(**variables, _MC_NESTED_COMPLETE="complete_bash")
@@ -98,7 +100,7 @@ def test_bash_gets_what_can_stand_there(typed: str, completed: list[str], asked_
     assert sorted(answer.split()) == sorted(completed)
 
 
-def test_zsh_gets_the_help_beside_each(asked_here: AskedHere) -> None:
+def test_zsh_gets_each_option_with_its_help(asked_here: AskedHere) -> None:
     asks = {"_MC_NESTED_COMPLETE": "complete_zsh"}
     assert asked_here(**asks, _TYPER_COMPLETE_ARGS="mc-nested train --pres") == (
         0,
@@ -127,7 +129,7 @@ def test_powershell_gets_the_help_behind_colons(asked_here: AskedHere) -> None:
 
 
 @pytest.mark.skipif(shutil.which("bash") is None, reason="there is no bash")
-def test_a_real_bash_completes_with_the_script_that_it_is_given(folder: Path) -> None:
+def test_real_bash_completes_with_the_printed_script(folder: Path) -> None:
     command = f"""#!/bin/sh\nexec "{sys.executable}" -c "{COMMAND}" "$@"\n"""
     (folder / "mc-nested").rename(folder / "config")
     (folder / "bin").mkdir()
@@ -167,7 +169,9 @@ def test_completion_loads_no_verb_and_no_large_library(folder: Path) -> None:
     assert done.stderr.splitlines() == ["False", "[]"]
 
 
-def test_every_option_that_completes_names_is_completed_quickly(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_options_that_complete_runs_or_profiles_are_those_of_the_quick_table(
+    folder: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     monkeypatch.chdir(folder)
     monkeypatch.setenv("XDG_CONFIG_HOME", str(folder))
     found = set()
@@ -192,12 +196,12 @@ def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 
 @pytest.mark.parametrize("typed", ["", "r", "runs", "runs/"])
-def test_runs_are_those_in_the_folder_runs(typed: str, here: Path) -> None:
+def test_runs_in_the_folder_runs_are_completed(typed: str, here: Path) -> None:
     assert [Path(name) for name in complete_runs(typed)] == [Path("runs/a"), Path("runs/b")]
     assert here.exists()
 
 
-def test_runs_are_also_those_where_the_path_leads(here: Path) -> None:
+def test_runs_in_the_typed_folder_are_completed(here: Path) -> None:
     assert complete_runs("runs/b") == [str(Path("runs/b"))]
     assert complete_runs(f"{here}/other/") == [f"{here}/other/c"]
     assert complete_runs(f"{here}/other/c") == [f"{here}/other/c"]
@@ -210,7 +214,7 @@ def test_without_runs_or_profiles_nothing_is_completed(tmp_path: Path, monkeypat
     assert complete_runs("") == complete_runs("a/b/c") == complete_profiles("") == []
 
 
-def test_profiles_are_the_named_ones(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_named_profiles_are_completed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(platformdirs, "user_config_path", lambda *_args, **_kwargs: tmp_path)
     (tmp_path / "profiles" / "laptop-points").mkdir(parents=True)
     for name in ("laptop.toml", "laptop.toml.before", "pc.toml"):
@@ -219,7 +223,7 @@ def test_profiles_are_the_named_ones(tmp_path: Path, monkeypatch: pytest.MonkeyP
     assert complete_profiles("l") == ["laptop"]
 
 
-def test_of_several_names_the_last_one_is_completed() -> None:
+def test_last_of_several_names_is_completed() -> None:
     names = complete_of(lambda: ["model-based", "paper", "tuned"])
     assert names("") == ["model-based", "paper", "tuned"]
     assert names("t") == ["tuned"]

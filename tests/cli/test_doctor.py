@@ -68,7 +68,7 @@ def test_the_table_fits_a_hundred_columns_and_names_every_row(
     assert lines[-1] == "8 pass, 8 warn, 8 fail, 7 skip"
 
 
-def test_fix_writes_shows_the_rows_as_they_are_then_and_keeps_json_alone_on_its_stream(
+def test_fix_repairs_options_txt_and_then_prints_the_new_rows_as_json_alone(
     bare: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     options = bare / ".minecraft" / "options.txt"
@@ -82,7 +82,7 @@ def test_fix_writes_shows_the_rows_as_they_are_then_and_keeps_json_alone_on_its_
     assert rows["autoJump"] == "pass"
 
 
-def test_an_examination_that_is_stopped_ends_as_a_stopped_command(
+def test_doctor_stopped_by_ctrl_c_exits_with_130_and_prints_no_rows(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     def stopped(*_args: object, **_more: object) -> Examination:
@@ -95,7 +95,7 @@ def test_an_examination_that_is_stopped_ends_as_a_stopped_command(
 
 if sys.platform.startswith("linux"):
 
-    def test_on_a_computer_without_a_desktop_every_row_is_there(
+    def test_on_a_computer_without_a_desktop_every_row_is_printed(
         tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
     ) -> None:
         for name in ("DISPLAY", "WAYLAND_DISPLAY", "XDG_SESSION_TYPE", "XDG_DATA_HOME", "XDG_CONFIG_HOME"):

@@ -13,14 +13,16 @@ from tests.learn.runs.changed_arrays import change_arrays
 
 
 def test_evaluate_prints_the_scores_of_the_summary(trained: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    """In a process of its own: test_without_torch.py."""
+    """test_without_torch.py does the same in a separate process."""
     assert run("runs", "evaluate", trained, "--json") == 0
     found = json.loads(capsys.readouterr().out)
     assert found["scores"] == json.loads((trained / "summary.json").read_text())["final_scores"]
     assert found["optimum"] == 21.0
 
 
-def test_names_are_shown_as_they_are_written(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_names_with_brackets_and_dollars_are_printed_unchanged(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     text = (resources.files("mc_nested.arena") / "designs" / "line.toml").read_text("utf-8")
     odd = text.replace('"line"', '"[/b] $x_{$"').replace('"wood"', '"[/w]"').replace('name = "stone"', 'name = "[/s]"')
     (tmp_path / "odd.toml").write_text(odd)
@@ -34,7 +36,7 @@ def test_names_are_shown_as_they_are_written(tmp_path: Path, capsys: pytest.Capt
 @pytest.mark.parametrize(
     "words", [["play", "RUN"], ["runs", "evaluate", "RUN"], ["train", "--from", "RUN", "--out", "NEW"]]
 )
-def test_policies_that_do_not_fit_the_run_are_one_line(
+def test_checkpoint_without_a_policys_array_is_refused_in_one_line(
     words: list[str], trained: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     copy, new = tmp_path / "copy", tmp_path / "new"

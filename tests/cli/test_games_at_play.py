@@ -85,7 +85,7 @@ def test_an_episode_counts_once_and_the_game_gets_the_next(play: Play) -> None:
     assert play.at_play.summary()["live"]["game_s"] == [2.0]
 
 
-def test_what_has_come_back_when_it_is_stopped_counts_and_nobody_is_asked_any_more(play: Play) -> None:
+def test_answers_that_arrived_before_the_end_count_and_no_game_is_asked_again(play: Play) -> None:
     first, second = play.begin("one", "two")
     asked = len(play.games.asked)
     play.games.coming += [
@@ -104,7 +104,7 @@ def test_a_game_whose_answers_cannot_be_fetched_is_named_with_its_address(play: 
     assert said.startswith("one has answered, but can't be reached at tcp://192.168.0.11:50123: let that port through")
 
 
-def test_a_game_that_is_gone_costs_its_episode_alone_and_may_come_back(play: Play) -> None:
+def test_game_that_leaves_loses_only_its_own_episode_and_may_join_again(play: Play) -> None:
     first, second = play.begin("one", "two")
     assert play.happens(Left("one")) == ["one is gone, its episode is lost"]
     assert play.at_play.in_words() == "1 game, 1 playing, 1 episode lost"
@@ -145,13 +145,13 @@ def test_the_training_ends_at_the_optimum_and_nobody_gets_another_plan(play: Pla
 @pytest.mark.parametrize(
     "answer", [GameAnswer(problem="the arena is too small", is_refusal=True), ClusterError("the arena is too small")]
 )
-def test_if_the_only_game_refuses_it_ends_with_that_line(answer: GameAnswer | Exception, play: Play) -> None:
+def test_refusal_of_the_only_game_ends_the_training_with_its_reason(answer: GameAnswer | Exception, play: Play) -> None:
     play.happens(Joined("one"))
     with pytest.raises(ClusterError, match=r"^one can't play: the arena is too small$"):
         play.happens(Answered("one", answer))
 
 
-def test_if_one_of_several_refuses_the_others_go_on(play: Play) -> None:
+def test_refusal_of_one_of_several_games_leaves_the_others_playing(play: Play) -> None:
     play.begin("one", "two")
     refusal = GameAnswer(problem="the arena is too small", is_refusal=True)
     assert play.happens(Answered("one", refusal)) == ["one can't play: the arena is too small"]
@@ -159,7 +159,7 @@ def test_if_one_of_several_refuses_the_others_go_on(play: Play) -> None:
     assert play.at_play.in_words() == "1 game, 1 playing, 1 episode lost"
 
 
-def test_a_refusal_doesnt_end_it_while_a_game_that_has_played_is_away(play: Play) -> None:
+def test_training_waits_for_a_game_that_left_even_if_another_game_has_refused(play: Play) -> None:
     play.begin("one")
     refusal = GameAnswer(problem="another version", is_refusal=True, leaves=True)
     play.happens(Joined("old"))
@@ -181,7 +181,7 @@ def test_a_training_without_a_game_waits_and_says_so(play: Play) -> None:
     assert play.at_play.in_words() == "waiting for a game (mc-nested train serve)"
 
 
-def test_a_second_game_of_a_name_is_said(play: Play) -> None:
+def test_second_game_of_the_same_name_is_reported_as_refused(play: Play) -> None:
     assert play.happens(NameTaken("one")) == ["a second game named one was refused: give it another --name"]
 
 

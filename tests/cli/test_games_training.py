@@ -116,7 +116,7 @@ def serve_here(url: str, is_over: threading.Event) -> threading.Thread:
     return thread
 
 
-def test_a_training_whose_episodes_another_process_plays_is_as_any_other(
+def test_training_played_by_a_served_game_reaches_the_optimum_and_writes_summary_and_map(
     url: str, design: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     over = threading.Event()
@@ -168,7 +168,7 @@ def test_a_game_is_served_until_its_player_ends_it(url: str, capsys: pytest.Capt
 
 
 @pytest.mark.slow
-def test_one_game_in_lockstep_learns_what_train_learns_by_itself(
+def test_one_served_game_learns_exactly_what_train_learns_alone(
     url: str, served: Served, design: Path, tmp_path: Path
 ) -> None:
     alone, together = tmp_path / "alone", tmp_path / "together"
@@ -189,7 +189,7 @@ def test_one_game_in_lockstep_learns_what_train_learns_by_itself(
 
 
 @pytest.mark.slow
-def test_two_games_of_which_one_is_killed_reach_the_optimum(
+def test_training_with_two_games_ends_well_after_one_is_killed(
     url: str, served: Served, design: Path, tmp_path: Path
 ) -> None:
     games = [served.begin(name) for name in ("one", "two")]
@@ -205,7 +205,7 @@ def test_two_games_of_which_one_is_killed_reach_the_optimum(
 
 
 @pytest.mark.slow
-def test_a_game_of_another_kind_refuses_at_both_ends(
+def test_game_of_another_backend_is_refused_with_the_reason_at_both_ends(
     url: str, served: Served, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     game = served.begin("one")
@@ -250,7 +250,9 @@ def test_a_mistake_is_one_line_and_writes_nothing(
 
 
 @pytest.mark.slow
-def test_two_games_of_one_name_are_refused_at_both_ends(url: str, served: Served, design: Path, tmp_path: Path) -> None:
+def test_second_game_of_the_same_name_is_refused_at_both_ends(
+    url: str, served: Served, design: Path, tmp_path: Path
+) -> None:
     served.begin("one")
     words = [*TRAIN, "--scenario", str(design), "--games", url, "--out", str(tmp_path / "out"), "--episodes", "1000"]
     words.remove("--stop-at-optimum")
@@ -268,7 +270,7 @@ def test_two_games_of_one_name_are_refused_at_both_ends(url: str, served: Served
 
 
 @pytest.mark.slow
-def test_with_keys_all_of_it_is_encrypted(design: Path, tmp_path: Path) -> None:
+def test_training_with_keys_runs_over_tls(design: Path, tmp_path: Path) -> None:
     keys = tmp_path / "keys"
     make_keys(keys, ["learner", "pc"])
     with scheduler(tmp_path, *tls_words(keys / "learner")) as secured, ExitStack() as stack:
@@ -280,7 +282,7 @@ def test_with_keys_all_of_it_is_encrypted(design: Path, tmp_path: Path) -> None:
 
 
 @pytest.mark.slow
-def test_a_game_of_another_version_leaves_and_both_ends_say_what_differs(
+def test_game_with_other_versions_leaves_and_both_ends_name_the_difference(
     url: str, served: Served, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     game = served.begin("one")
@@ -319,7 +321,7 @@ def test_a_second_training_is_refused_the_games_of_the_first(
 
 
 @pytest.mark.slow
-def test_a_scheduler_that_is_killed_saves_the_training(design: Path, tmp_path: Path) -> None:
+def test_training_is_saved_if_its_scheduler_is_killed(design: Path, tmp_path: Path) -> None:
     with ExitStack() as stack:
         killed = ExitStack()
         address = killed.enter_context(scheduler(tmp_path))

@@ -28,7 +28,7 @@ def fields_of(verb: str) -> dict[str, str]:
     return json_fields(VERBS[verb].callback)
 
 
-def test_every_verb_that_has_json_says_what_it_prints() -> None:
+def test_every_verb_with_json_declares_its_fields() -> None:
     has_json = {verb for verb, each in VERBS.items() if any("--json" in option.opts for option in each.params)}
     lists = {"runs", "profiles", "recordings"}
     assert {verb for verb in VERBS if fields_of(verb)} == has_json - lists
@@ -50,11 +50,15 @@ def printed(capsys: pytest.CaptureFixture[str], *words: str | Path) -> dict[str,
 
 
 @pytest.mark.parametrize("verb", ["runs evaluate", "play", "runs show"])
-def test_json_fields_of_a_run(verb: str, trained: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_json_of_evaluate_play_and_show_has_the_declared_fields(
+    verb: str, trained: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     assert printed(capsys, *verb.split(), trained).keys() == fields_of(verb).keys()
 
 
-def test_json_fields_of_a_training(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_json_of_a_training_has_the_declared_fields_alone_and_in_a_team(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     found = printed(capsys, "train", "--episodes", "2", "--out", tmp_path / "run")
     assert found.keys() == fields_of("train").keys()
     assert (found["builders"], found["live"]) == (None, None)
@@ -63,13 +67,13 @@ def test_json_fields_of_a_training(tmp_path: Path, capsys: pytest.CaptureFixture
     assert found["builders"] == 2
 
 
-def test_json_fields_of_a_list_of_runs(trained: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_json_of_runs_list_has_the_declared_fields(trained: Path, capsys: pytest.CaptureFixture[str]) -> None:
     found = printed(capsys, "runs", "list", trained.parent)
     assert found.keys() == fields_of("runs list").keys()
     assert {*found["runs"][0], "files"} == fields_of("runs show").keys()
 
 
-def test_json_fields_of_profiles(
+def test_json_of_profiles_has_the_declared_fields(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.setattr(platformdirs, "user_config_path", lambda *_args, **_kwargs: tmp_path)
@@ -81,7 +85,7 @@ def test_json_fields_of_profiles(
     assert {*found["profiles"][0], "files"} == fields_of("profiles show").keys()
 
 
-def test_json_fields_of_designs(capsys: pytest.CaptureFixture[str]) -> None:
+def test_json_of_scenarios_has_only_declared_fields(capsys: pytest.CaptureFixture[str]) -> None:
     (line,) = printed(capsys, "scenarios", "line")["scenarios"]
     meaning = fields_of("scenarios")["scenarios"]
     assert [name for name in line if name not in meaning] == []
@@ -89,7 +93,7 @@ def test_json_fields_of_designs(capsys: pytest.CaptureFixture[str]) -> None:
     assert [row.count("#") for row in line["design"]] == [0, 0, *[1] * 11, 0, 0]
 
 
-def test_json_fields_of_a_picture(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_json_of_read_has_the_declared_fields(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     screen = F3Screen("1.16-1.19.2", 2, (8.5, 64.0, -3.25), 0.0, -65.0)
     grey = np.full((480, 854, 3), 60, np.uint8)
     cv2.imwrite(str(tmp_path / "sky.png"), paint(grey, screen, font_of(drawn_atlas())))
@@ -98,7 +102,9 @@ def test_json_fields_of_a_picture(tmp_path: Path, capsys: pytest.CaptureFixture[
     assert found.keys() == fields_of("read").keys()
 
 
-def test_json_fields_of_the_doctor(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+def test_json_of_the_doctor_has_the_declared_fields(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
     for name in ("DISPLAY", "WAYLAND_DISPLAY"):
         monkeypatch.delenv(name, raising=False)
     found = printed(capsys, "doctor")

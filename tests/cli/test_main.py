@@ -10,7 +10,7 @@ import pytest
 from mc_nested import cli
 
 
-def test_a_stream_that_does_not_know_epsilon_writes_something_else(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_stream_that_cannot_encode_epsilon_writes_a_question_mark(monkeypatch: pytest.MonkeyPatch) -> None:
     streams = {name: io.TextIOWrapper(io.BytesIO(), encoding="ascii") for name in ("stdout", "stderr")}
     for name, stream in streams.items():
         monkeypatch.setattr(sys, name, stream)
@@ -28,7 +28,7 @@ def test_a_stream_that_does_not_know_epsilon_writes_something_else(monkeypatch: 
     assert streams["stderr"].buffer.getvalue() == b"?"
 
 
-def test_what_nobody_reads_any_more_is_dropped_without_an_error() -> None:
+def test_output_to_a_closed_pipe_is_dropped_without_an_error() -> None:
     reads, writes = os.pipe()
     with os.fdopen(writes, "w", encoding="utf-8") as stream:
         stream.write("a last line")

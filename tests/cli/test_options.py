@@ -24,7 +24,7 @@ class Log:
         return {"actions": 3}
 
 
-def test_a_games_log_and_its_failures_are_in_the_summary_and_the_simulators_is_empty() -> None:
+def test_summary_has_a_live_games_log_and_failures_and_nothing_of_the_simulator() -> None:
     budget = FailureBudget()
     assert played_live(Log(), budget) == {"live": {"actions": 3, **budget.summary()}}
     assert played_live(None, budget) == {}
@@ -67,7 +67,7 @@ def test_a_run_keeps_the_whole_design_and_never_needs_the_file_again(
     assert run("play", out) == 0
 
 
-def test_a_layer_beside_resume_is_refused(hut: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_layer_together_with_resume_is_refused(hut: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     out = tmp_path / "run"
     assert run("train", "--episodes", "2", "--scenario", hut, "--out", out) == 0
     capsys.readouterr()
@@ -84,7 +84,7 @@ def test_a_layer_beside_resume_is_refused(hut: Path, tmp_path: Path, capsys: pyt
         (["--scenario", "NONE.schem"], "NONE.schem: there is no such file: check its name and folder"),
     ],
 )
-def test_a_layer_that_is_not_there_is_one_line_and_nothing_is_written(
+def test_missing_layer_or_file_is_refused_in_one_line_and_nothing_is_written(
     verb: str, words: list[str], says: str, hut: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     named = [word.replace("HUT", str(hut)).replace("NONE", str(tmp_path / "none")) for word in words]
@@ -94,7 +94,7 @@ def test_a_layer_that_is_not_there_is_one_line_and_nothing_is_written(
     assert not (tmp_path / "new").exists()
 
 
-def test_several_files_are_taken_with_one_layer_and_each_ones_notes(
+def test_one_layer_applies_to_several_files_and_each_files_notes_are_printed(
     hut: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     (tmp_path / "dot.png").write_bytes(picture(HUT[0]))
@@ -119,7 +119,7 @@ def test_an_arena_to_calibrate_has_15_cells_by_default() -> None:
 
 
 @pytest.mark.parametrize(("size", "needed"), [(5, 15), (15, 15), (24, 24)])
-def test_a_scenario_gets_an_arena_as_large_as_it_needs_and_never_smaller_than_the_papers(
+def test_scenario_gets_an_arena_as_large_as_it_needs_and_of_at_least_15_cells(
     size: int, needed: int, tmp_path: Path
 ) -> None:
     assert arena_size(None, scenario_of(size, tmp_path)) == needed
@@ -133,12 +133,12 @@ def test_a_schematics_layer_gets_the_arena_that_its_blocks_need(tmp_path: Path) 
     assert arena_size(None, str(tmp_path / "deep.schem"), 1) == 15
 
 
-def test_a_layer_without_a_scenario_is_one_line() -> None:
+def test_layer_without_a_scenario_is_refused() -> None:
     with pytest.raises(UserError, match="--layer is a layer of a schematic: name its file with --scenario"):
         arena_size(None, None, 2)
 
 
-def test_a_size_beside_a_scenario_or_a_scenario_that_is_none_is_one_line() -> None:
+def test_size_together_with_a_scenario_or_an_unknown_scenario_is_refused() -> None:
     with pytest.raises(UserError, match="--size and --scenario both say how large the arena is"):
         arena_size(20, "house")
     with pytest.raises(ScenarioError, match="no scenario 'castle'"):

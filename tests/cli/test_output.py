@@ -32,7 +32,7 @@ def said(output: Output, capsys: pytest.CaptureFixture[str]) -> tuple[str, str]:
     return printed.out, printed.err
 
 
-def test_a_person_sees_everything(capsys: pytest.CaptureFixture[str]) -> None:
+def test_without_quiet_or_json_everything_is_printed(capsys: pytest.CaptureFixture[str]) -> None:
     assert said(Output(), capsys) == ("begins\ndone\nlook at it\n", "half of it\n")
 
 
@@ -60,7 +60,7 @@ def test_a_table_is_shown_to_a_person_as_wide_as_it_needs(capsys: pytest.Capture
     assert "x" * 100 in capsys.readouterr().out
 
 
-def test_a_note_that_nobody_reads_any_more_stops_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_note_to_a_closed_pipe_does_not_stop_the_verb(monkeypatch: pytest.MonkeyPatch) -> None:
     class Gone(io.StringIO):
         def write(self, _: str) -> int:
             raise BrokenPipeError
@@ -82,20 +82,20 @@ def shown(width: int) -> list[str]:
     return [line.rstrip() for line in text.getvalue().splitlines()]
 
 
-def test_where_there_is_room_every_column_is_shown_numbers_to_the_right() -> None:
+def test_table_shows_every_column_if_there_is_room_and_aligns_numbers_right() -> None:
     assert shown(80) == ["run     episodes  size", "line       3,000  19 MB", "zigzag        20  1 MB"]
 
 
-def test_where_room_is_short_the_least_needed_columns_are_left_out_first() -> None:
+def test_table_drops_the_least_needed_columns_first_if_room_is_short() -> None:
     assert shown(20) == ["run     episodes", "line       3,000", "zigzag        20"]
     assert shown(10) == ["run", "line", "zigzag"]
 
 
-def test_what_still_does_not_fit_is_folded_and_nothing_is_lost() -> None:
+def test_table_that_still_does_not_fit_is_folded_without_loss() -> None:
     assert "".join(shown(4)) == "runlinezigzag"
 
 
-def test_facts_that_say_nothing_are_left_out() -> None:
+def test_empty_facts_are_left_out() -> None:
     text = io.StringIO()
     Console(file=text, width=80).print(facts_table([("state", "finished"), ("why", "")]))
     assert text.getvalue().split() == ["state", "finished"]

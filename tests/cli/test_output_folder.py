@@ -46,7 +46,7 @@ def test_folders_made_in_the_same_second_have_different_names() -> None:
         ("x" * 70, "x" * 50),
     ],
 )
-def test_a_designs_name_makes_a_name_that_every_system_takes(name: str, folder: str) -> None:
+def test_design_name_becomes_a_folder_name_that_every_system_accepts(name: str, folder: str) -> None:
     with output_folder(None, name, NOW) as path:
         assert path == RUNS / f"{folder}-2026-11-23-094501"
 
@@ -58,14 +58,14 @@ def test_a_folder_into_which_nothing_was_written_is_removed(here: Path) -> None:
     assert list(here.iterdir()) == []
 
 
-def test_a_folder_that_was_there_before_is_kept(here: Path) -> None:
+def test_empty_folder_that_existed_before_is_kept(here: Path) -> None:
     (here / "mine").mkdir()
     with output_folder(Path("mine"), "line"):
         pass
     assert list((here / "mine").iterdir()) == []
 
 
-def test_a_folder_that_holds_something_is_refused_and_left_alone(here: Path) -> None:
+def test_folder_that_is_not_empty_is_refused_and_left_alone(here: Path) -> None:
     (here / "mine").mkdir()
     (here / "mine" / "letter.txt").touch()
     with pytest.raises(RunError, match="not empty"), output_folder(Path("mine"), "line"):
@@ -82,7 +82,7 @@ def test_a_folder_that_another_process_uses_is_refused_with_its_process_id() -> 
         pytest.fail("it was let in")
 
 
-def test_a_file_named_runs_is_one_line(here: Path) -> None:
+def test_file_in_the_place_of_the_folder_runs_is_an_error(here: Path) -> None:
     (here / RUNS).touch()
     with (
         pytest.raises(RunError, match=r"can't be made, .*: name a new folder with --out DIR"),

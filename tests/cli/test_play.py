@@ -19,7 +19,7 @@ def test_play_shows_the_arena_and_the_score(trained: Path, capsys: pytest.Captur
 
 
 @pytest.mark.parametrize("words", [["--quiet"], ["--json"]])
-def test_play_can_leave_out_what_is_watched(
+def test_play_with_quiet_or_json_prints_one_line(
     words: list[str], trained: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     assert run("play", trained, *words) == 0
@@ -29,13 +29,13 @@ def test_play_can_leave_out_what_is_watched(
     assert printed.err == ""
 
 
-def test_play_takes_the_best_trial_by_itself(trained: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_play_takes_the_best_trial_by_default(trained: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert run("play", trained) == 0
     best = max(json.loads((trained / "summary.json").read_text())["final_scores"])
     assert f"score {best:g} of 21" in capsys.readouterr().out
 
 
-def test_the_pictures_of_an_episode_are_of_that_episode_alone(
+def test_play_replaces_the_screenshots_of_an_earlier_episode(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     assert run("train", "--episodes", "1", "--out", tmp_path / "run") == 0
@@ -72,7 +72,7 @@ def test_an_episode_that_a_person_stops_does_not_start_over(
     assert capsys.readouterr().err == f"mc-nested: {error}\n"
 
 
-def test_the_simulator_has_no_window_to_picture(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_screenshots_in_the_simulator_are_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert run("train", "--episodes", "1", "--out", tmp_path / "run") == 0
     assert run("play", tmp_path / "run", "--screenshots") == 2
     assert "leave out --screenshots" in capsys.readouterr().err

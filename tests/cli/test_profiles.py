@@ -106,7 +106,7 @@ def test_deleting_a_profile_says_that_its_arena_can_not_be_put_back_afterwards(
     assert said[1:] == ["deleted laptop", "deleted torn"]
 
 
-def test_a_name_that_no_profile_has_is_one_line_and_nothing_is_deleted(
+def test_unknown_profile_name_is_refused_in_one_line_and_nothing_is_deleted(
     folder: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     assert run("profiles", "delete", "pc", "nothing", "--yes") == 2

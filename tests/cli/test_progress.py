@@ -41,7 +41,7 @@ def test_progress_shows_score_optimum_epsilon_and_updates() -> None:
         assert progress._bar.tasks[0].total == 40
 
 
-def test_a_finished_run_has_nothing_left_and_the_bar_is_not_refreshed_too_often(
+def test_finished_trial_counts_as_complete_and_the_bar_is_not_refreshed_too_often(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     monkeypatch.setattr(progress_module, "REFRESH_S", 1000.0)
@@ -71,7 +71,7 @@ def printed(console: Console) -> str:
     return console.file.getvalue()
 
 
-def test_with_an_imagination_progress_shows_what_was_found_out_instead_of_epsilon() -> None:
+def test_progress_of_an_imagining_agent_shows_known_cells_instead_of_epsilon() -> None:
     training = imagining()
     with TrainingProgress(SMALL, training, terminal(40)) as progress:
         progress.show()
@@ -93,14 +93,14 @@ def test_a_terminal_shows_the_map_of_a_single_trial_below_the_bar() -> None:
 @pytest.mark.parametrize(
     ("trials", "console"), [(2, terminal(40)), (1, terminal(12)), (1, terminal(40, is_terminal=False))]
 )
-def test_of_several_trials_or_where_there_is_no_room_no_map_is_shown(trials: int, console: Console) -> None:
+def test_no_map_is_shown_for_several_trials_in_a_low_terminal_or_without_one(trials: int, console: Console) -> None:
     with TrainingProgress(SMALL, imagining(trials), console) as progress:
         progress.show()
     assert "built elsewhere" not in printed(console)
     assert ("trial 0: 0 played" in figures(progress)) == (trials > 1)
 
 
-def test_without_a_terminal_the_figures_are_whole_lines_now_and_then(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_without_a_terminal_progress_is_a_whole_line_now_and_then(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(progress_module, "LINE_EVERY_S", 1000.0)
     console = Console(file=io.StringIO(), width=40)
     training = imagining()
@@ -117,7 +117,7 @@ def test_without_a_terminal_the_figures_are_whole_lines_now_and_then(monkeypatch
     assert printed(console).count("\n") == 2
 
 
-def test_a_terminal_says_that_it_is_stopping_while_the_last_tick_still_lasts() -> None:
+def test_terminal_says_that_the_training_is_stopping_during_its_last_tick() -> None:
     stops, console = [False], terminal(40)
     with TrainingProgress(SMALL, imagining(), console, lambda: stops[0]) as progress:
         progress._bar.refresh()
@@ -139,7 +139,7 @@ def test_in_a_narrow_terminal_nothing_is_cut(trials: int) -> None:
     assert "…" not in shown
 
 
-def test_the_last_view_of_the_map_is_of_the_end() -> None:
+def test_map_is_drawn_again_at_the_end() -> None:
     training, console = imagining(), terminal(40)
     with TrainingProgress(SMALL, training, console) as progress:
         progress.show()
@@ -151,7 +151,7 @@ def test_the_last_view_of_the_map_is_of_the_end() -> None:
     assert progress._bar.map is not shown
 
 
-def test_a_reader_that_is_gone_does_not_end_the_training() -> None:
+def test_closed_pipe_does_not_end_the_training() -> None:
     reads, writes = os.pipe()
     os.close(reads)
     gone = os.fdopen(writes, "w")

@@ -35,7 +35,7 @@ def picture(path: Path, screen: F3Screen) -> Path:
     return path
 
 
-def test_each_picture_is_a_line_that_says_where_the_player_is_and_what_is_looked_at(
+def test_read_prints_one_line_a_picture_with_the_pose_and_the_looked_at_block(
     tmp_path: Path, font: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     stone, sky = picture(tmp_path / "a.png", STONE), picture(tmp_path / "b.png", SKY)
@@ -45,7 +45,7 @@ def test_each_picture_is_a_line_that_says_where_the_player_is_and_what_is_looked
     ]
 
 
-def test_no_block_with_the_ground_in_view_is_told_to_be_an_entry_that_is_off(
+def test_read_explains_a_missing_block_with_a_debug_entry_that_may_be_off(
     tmp_path: Path, font: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     ground = picture(tmp_path / "a.png", F3Screen("1.16-1.19.2", 2, (8.5, 64.0, -3.25), 0.0, 65.0))
@@ -56,7 +56,7 @@ def test_no_block_with_the_ground_in_view_is_told_to_be_an_entry_that_is_off(
     )
 
 
-def test_a_picture_that_can_not_be_read_is_a_line_with_the_reason(
+def test_unreadable_picture_gets_a_line_with_the_reason(
     tmp_path: Path, font: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     (line,) = printed(capsys, picture(tmp_path / "a.png", SKY), "--font", font)
@@ -67,7 +67,7 @@ def test_a_picture_that_can_not_be_read_is_a_line_with_the_reason(
 
 
 @pytest.mark.parametrize("as_json", [True, False])
-def test_a_file_that_is_no_picture_is_a_mistake_once_the_others_are_read(
+def test_file_that_is_not_a_picture_is_an_error_after_the_others_are_read(
     as_json: bool, tmp_path: Path, font: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     (tmp_path / "notes.txt").write_text("no picture", "utf-8")
@@ -87,7 +87,7 @@ def test_as_json_each_picture_is_an_object(tmp_path: Path, font: Path, capsys: p
 
 
 @pytest.mark.parametrize(("scale", "is_read"), [(2, True), (3, False)])
-def test_a_profile_gives_the_font_and_how_the_screen_is_drawn(
+def test_read_takes_the_font_and_the_debug_scale_from_the_profile(
     scale: int, is_read: bool, tmp_path: Path, font: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     profile = tmp_path / "mine.toml"
@@ -97,7 +97,7 @@ def test_a_profile_gives_the_font_and_how_the_screen_is_drawn(
     assert ("GUI scale 3" in line) is not is_read
 
 
-def test_a_font_that_is_named_goes_before_the_profiles(
+def test_font_option_comes_before_the_profiles_font(
     tmp_path: Path, font: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     profile = tmp_path / "mine.toml"

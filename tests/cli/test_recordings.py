@@ -42,7 +42,7 @@ def run(capsys: pytest.CaptureFixture[str], *words: str) -> tuple[int, str]:
     return code, said.out + said.err
 
 
-def test_recordings_are_listed_with_what_they_hold(kept: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_recordings_are_listed_with_their_actions_and_damage(kept: Path, capsys: pytest.CaptureFixture[str]) -> None:
     (kept.parent / "broken").mkdir()
     (kept.parent / "broken" / "00001.mcap").write_bytes(b"nothing")
     code, said = run(capsys, "recordings")
@@ -75,7 +75,7 @@ def test_recordings_are_listed_as_json(kept: Path, capsys: pytest.CaptureFixture
     )
 
 
-def test_a_recording_with_lost_parts_has_an_exit_code_of_its_own(
+def test_verify_exits_with_1_for_a_recording_with_lost_parts(
     kept: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     whole = next(kept.glob("*.mcap")).read_bytes()
@@ -85,14 +85,14 @@ def test_a_recording_with_lost_parts_has_an_exit_code_of_its_own(
     assert "whole" not in said
 
 
-def test_a_name_that_no_recording_has_is_one_line(kept: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_unknown_recording_name_is_refused_in_one_line(kept: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert run(capsys, "replay", "nope") == (
         2,
         f"mc-nested: no recording 'nope': the last ones kept are: {kept.name}\n",
     )
 
 
-def test_a_part_that_is_cut_out_replays_the_same(
+def test_part_cut_from_a_recording_replays_without_differences(
     kept: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     out = tmp_path / "part.mcap"
@@ -106,7 +106,7 @@ def test_a_part_that_is_cut_out_replays_the_same(
     assert (code, "is there already" in said) == (2, True)
 
 
-def test_a_reading_that_differs_is_told_and_pictured(
+def test_replay_reports_and_pictures_a_reading_that_differs(
     kept: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     atlas = drawn_atlas().copy()
@@ -123,7 +123,7 @@ def test_a_reading_that_differs_is_told_and_pictured(
     assert picture.shape == (480, 854, 3)
 
 
-def test_a_recording_into_a_folder_that_holds_something_is_refused(
+def test_recording_into_a_folder_that_is_not_empty_is_refused(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     (tmp_path / "full").mkdir()
@@ -132,7 +132,7 @@ def test_a_recording_into_a_folder_that_holds_something_is_refused(
     assert (code, "holds something already" in said) == (2, True)
 
 
-def test_the_oldest_of_too_many_recordings_is_deleted(kept: Path) -> None:
+def test_recordings_are_deleted_if_there_are_too_many(kept: Path) -> None:
     from mc_nested.live.recording import run_recorder
 
     for number in range(MOST_RECORDINGS + 2):
@@ -153,7 +153,7 @@ def test_a_bug_report_without_a_recording_holds_the_versions(tmp_path: Path) -> 
         assert json.loads(file.read("versions.json")).keys() == {"version", "python", "system"}
 
 
-def test_a_bug_report_holds_what_it_says_and_no_names(recorded: Path, tmp_path: Path) -> None:
+def test_bug_report_contains_exactly_the_listed_files_and_no_user_names(recorded: Path, tmp_path: Path) -> None:
     check = Check(CheckName.CLIPBOARD, "pass", "/home/ann/.minecraft is read", "")
     out = tmp_path / "report.zip"
     profile = '[screen]\nfont = "/home/ann/versions/1.20.1.jar"\n'

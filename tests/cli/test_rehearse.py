@@ -76,7 +76,7 @@ def test_a_missing_package_is_named_with_how_to_get_it(
 
 if sys.platform.startswith("linux"):
 
-    def test_without_a_display_it_says_where_to_run_it(
+    def test_rehearse_without_a_display_says_where_to_run(
         capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
     ) -> None:
         for name in ("DISPLAY", "WAYLAND_DISPLAY"):
@@ -100,7 +100,7 @@ if sys.platform.startswith("linux"):
         monkeypatch.delenv("DISPLAY", raising=False)
         return found
 
-    def test_mishaps_are_drawn_from_a_seed_that_is_named_or_new_and_said(
+    def test_mishaps_use_the_given_seed_or_a_new_one_and_the_seed_is_printed(
         opened: list["Rehearsal"], capsys: pytest.CaptureFixture[str]
     ) -> None:
         said = []
@@ -142,21 +142,23 @@ if sys.platform.startswith("linux"):
         assert "F3+F6" not in capsys.readouterr().out
 
     @pytest.mark.parametrize("text", ["", "{", "[]", '{"custom":{"minecraft:fps":"sometimes"}}', '{"profile":"mine"}'])
-    def test_a_damaged_debug_profile_is_one_line(text: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    def test_damaged_debug_profile_is_refused_in_one_line(
+        text: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+    ) -> None:
         profile = tmp_path / "debug-profile.json"
         profile.write_text(text, "utf-8")
         said = refused(capsys, "--version", "26.1", "--debug-profile", profile)
         problem = "an entry or a value is unknown there" if text.startswith(('{"', "[")) else "it is no JSON"
         assert f"{profile}: no debug-profile.json of Minecraft 26.1, {problem}" in said
 
-    def test_options_are_lines_of_options_txt(opened: list["Rehearsal"], capsys: pytest.CaptureFixture[str]) -> None:
+    def test_option_words_set_the_games_options(opened: list["Rehearsal"], capsys: pytest.CaptureFixture[str]) -> None:
         words = ["--option", "toggleUse=true", "--option", "pauseOnLostFocus=false"]
         assert run("rehearse", "--version", "26.3", *words) == 0
         settings = opened[0].settings
         assert settings.options == GameOptions(toggle_use=True, pause_on_lost_focus=False)
         assert capsys.readouterr().out.startswith("Rehearsing Minecraft 26.3.\n")
 
-    def test_without_mishaps_no_seed_is_said(opened: list["Rehearsal"], capsys: pytest.CaptureFixture[str]) -> None:
+    def test_without_mishaps_no_seed_is_printed(opened: list["Rehearsal"], capsys: pytest.CaptureFixture[str]) -> None:
         assert run("rehearse") == 0
         assert opened[0].mishaps_a_minute == 0
         assert "--seed" not in capsys.readouterr().out

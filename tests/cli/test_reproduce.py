@@ -56,14 +56,14 @@ def written(folder: Path) -> dict[str, bytes]:
 @pytest.mark.parametrize(
     "verb", [("runs", "evaluate"), ("play",), ("train", "--resume"), ("study", "sweep", "--resume")]
 )
-def test_other_verbs_say_whose_folder_it_is(
+def test_other_verbs_refuse_the_folder_and_name_reproduce(
     done: Path, verb: tuple[str, ...], capsys: pytest.CaptureFixture[str]
 ) -> None:
     assert run(*verb, done) == 2
     assert "the folder of mc-nested reproduce, not of" in capsys.readouterr().err
 
 
-def test_a_reproduction_leaves_its_results_and_what_made_them(done: Path) -> None:
+def test_reproduction_writes_its_results_and_keeps_config_jobs_and_tensorboard(done: Path) -> None:
     assert {path.name for path in done.iterdir()} == {*WRITTEN, "config.toml", "jobs", "tensorboard"}
     runs = {f"{a}-{s}-{t}" for a in ("nested", "hierarchical", "single") for s in ("dot", "bar") for t in (0, 1)}
     assert {path.name for path in (done / "tensorboard").iterdir()} == runs
@@ -80,7 +80,7 @@ def test_a_reproduction_leaves_its_results_and_what_made_them(done: Path) -> Non
     assert re.search(r"\| dot \| hierarchical \| 3 \(1\.50\) \|", report), "networks, and times the nested agent's"
 
 
-def test_train_gives_the_same_runs(done: Path, files: Path, tmp_path: Path) -> None:
+def test_train_with_the_same_seed_gives_the_reproductions_scores(done: Path, files: Path, tmp_path: Path) -> None:
     assert (
         run("train", "--agent", "hierarchical", *write_study(files, BAR), "--seed", "5", "--out", tmp_path / "run") == 0
     )
@@ -121,7 +121,7 @@ def test_json_has_the_files_and_the_verdicts(done: Path, capsys: pytest.CaptureF
     assert printed.err == ""
 
 
-def test_without_a_name_its_folder_has_the_figures_name_and_the_date(
+def test_folder_without_a_name_is_named_after_the_figure_and_the_date(
     words: list[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     begun: list[Path] = []
@@ -221,7 +221,7 @@ def test_ctrl_c_saves_and_says_how_to_resume(
         (signal.SIGTERM, "a training process was asked to stop"),
     ],
 )
-def test_a_lost_process_is_one_line_and_costs_nothing(
+def test_lost_training_process_is_one_line_and_resume_gives_the_same_files(
     words: list[str], straight: dict[str, bytes], tmp_path: Path, number: signal.Signals, says: str
 ) -> None:
     out = tmp_path / "run"
@@ -238,7 +238,7 @@ def test_a_lost_process_is_one_line_and_costs_nothing(
 
 @pytest.mark.slow
 @pytest.mark.skipif(not Path("/proc/self/task").exists(), reason="finds the processes in /proc")
-def test_if_the_command_is_killed_its_processes_save_and_end(words: list[str], tmp_path: Path) -> None:
+def test_training_processes_end_if_the_command_is_killed(words: list[str], tmp_path: Path) -> None:
     with long_one(words, tmp_path / "run", 100_000) as process:
         left = training_processes(process)
         process.kill()
@@ -246,7 +246,7 @@ def test_if_the_command_is_killed_its_processes_save_and_end(words: list[str], t
         wait_until(lambda: not any(Path(f"/proc/{pid}").exists() for pid in left))
 
 
-def test_a_disk_that_fills_up_at_the_end_costs_one_line_and_no_file(
+def test_full_disk_at_the_end_is_one_line_and_costs_no_file(
     done: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     before = written(done)

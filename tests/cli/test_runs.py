@@ -24,7 +24,7 @@ def here(trained: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path
     return tmp_path
 
 
-def test_the_runs_are_listed_with_what_they_are_and_what_is_wrong(capsys: pytest.CaptureFixture[str]) -> None:
+def test_runs_are_listed_with_design_agent_state_and_damage(capsys: pytest.CaptureFixture[str]) -> None:
     assert run("runs") == 0
     lines = capsys.readouterr().out.splitlines()
     assert " ".join(lines[0].split()) == "run what design agent preset trials episodes score state size begun"
@@ -92,7 +92,7 @@ def test_a_run_is_deleted_after_a_question(
     assert (here / "runs" / "whole").exists() is not is_gone
 
 
-def test_where_nobody_can_be_asked_nothing_is_deleted(here: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_nothing_is_deleted_if_nobody_can_be_asked(here: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     with Path(os.devnull).open() as nobody:
         monkeypatch.setattr("sys.stdin", nobody)
         assert run("runs", "delete", "whole") == 130
@@ -106,7 +106,9 @@ def test_damaged_runs_can_be_deleted_and_several_at_once(here: Path) -> None:
 
 
 @pytest.mark.parametrize("name", ["notes", "nothing", "", "..", "/"])
-def test_a_folder_that_is_no_run_is_never_deleted(name: str, here: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_folder_without_a_run_is_refused_and_no_run_named_with_it_is_deleted(
+    name: str, here: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     assert run("runs", "delete", "whole", name, "--yes") == 2
     said = capsys.readouterr().err
     assert "mc-nested runs lists them" in said
@@ -114,7 +116,7 @@ def test_a_folder_that_is_no_run_is_never_deleted(name: str, here: Path, capsys:
     assert (here / "runs" / "whole").exists(), "one mistake, and nothing is begun"
 
 
-def test_a_run_in_use_is_listed_as_such_and_left_alone(here: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_run_in_use_is_listed_as_in_use_and_left_alone(here: Path, capsys: pytest.CaptureFixture[str]) -> None:
     with folder_lock(here / "runs" / "whole"):
         for words in (["delete", "whole", "--yes"], ["rename", "whole", "better"]):
             assert run("runs", *words) == 2

@@ -24,7 +24,7 @@ def test_scenarios_lists_the_designs(capsys: pytest.CaptureFixture[str]) -> None
         assert words in printed
 
 
-def test_a_design_in_parts_is_drawn_and_told_part_by_part(capsys: pytest.CaptureFixture[str]) -> None:
+def test_design_in_parts_is_drawn_and_described_part_by_part(capsys: pytest.CaptureFixture[str]) -> None:
     assert run("scenarios", "flag") == 0
     printed = capsys.readouterr().out
     assert "1 1 1 1" in printed
@@ -35,7 +35,7 @@ def test_a_design_in_parts_is_drawn_and_told_part_by_part(capsys: pytest.Capture
     assert flag["parts"][0]["cells"][5] == ".....####......"
 
 
-def test_a_large_design_of_a_users_own_is_listed_with_an_upper_bound(
+def test_large_user_design_is_listed_with_an_upper_bound_of_steps(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     grid = "\n".join(["...............", "###############", "...............", "###############"] + ["." * 15] * 11)
@@ -49,7 +49,7 @@ def test_a_large_design_of_a_users_own_is_listed_with_an_upper_bound(
     assert "fewest     at most 42 steps, the scripted builder's: searched up to 18 blocks" in printed
 
 
-def test_a_schematics_layers_are_listed_and_the_one_that_is_named_is_drawn(
+def test_layers_of_a_schematic_are_listed_and_the_chosen_one_is_drawn(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     (tmp_path / "hut.schem").write_bytes(sponge(HUT))
@@ -71,7 +71,7 @@ def test_a_schematics_layers_are_listed_and_the_one_that_is_named_is_drawn(
     )
 
 
-def test_without_a_layer_the_lowest_is_drawn_and_a_picture_has_only_one(
+def test_lowest_layer_is_drawn_by_default_and_a_picture_has_no_list_of_layers(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     (tmp_path / "hut.schem").write_bytes(sponge(HUT))
@@ -83,7 +83,7 @@ def test_without_a_layer_the_lowest_is_drawn_and_a_picture_has_only_one(
     assert "hut.schem, layer 0: the lowest of 3 layers with blocks, --layer takes another\n" in printed.err
 
 
-def test_of_a_tower_only_the_first_hundred_layers_are_listed(
+def test_only_the_first_hundred_layers_of_a_tower_are_listed(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     (tmp_path / "tower.schem").write_bytes(sponge([["s"]] * 250))
@@ -93,7 +93,7 @@ def test_of_a_tower_only_the_first_hundred_layers_are_listed(
     assert "  and 150 more\n" in printed
 
 
-def test_block_names_of_a_file_are_printed_unchanged(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_file_name_with_brackets_is_printed_unchanged(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     drawing = [["ss"], ["cc"]]
     data = sponge(drawing)
     (tmp_path / "[red]x.schem").write_bytes(data)

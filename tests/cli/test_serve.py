@@ -8,7 +8,9 @@ from mc_nested.workers.cluster.address import scheduler_address
 from tests.cli.running import run
 
 
-def test_each_machine_gets_a_folder_that_keys_takes(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_train_keys_makes_a_folder_for_each_machine_that_the_keys_option_accepts(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     assert run("train", "keys", tmp_path / "keys", "learner", "pc1") == 0
     printed = capsys.readouterr().out.splitlines()
     assert [line.split(":")[0] for line in printed[:2]] == [

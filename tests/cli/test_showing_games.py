@@ -25,7 +25,7 @@ class OneArena:
         return frozenset()
 
 
-def test_its_progress_its_view_and_its_events_are_those_of_one_trial(tmp_path: Path) -> None:
+def test_learner_with_games_shows_progress_view_and_events_as_one_trial(tmp_path: Path) -> None:
     learner = learner_of(BENT, SMALL)
     config = run_config(BENT, preset=SMALL)
     board, said = Board("train", "a title"), io.StringIO()

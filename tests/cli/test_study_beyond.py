@@ -53,7 +53,7 @@ def test_resuming_a_finished_study_writes_the_same_files(done: Path, capsys: pyt
     check_one_at_a_time(["reproduce"], done, capsys)
 
 
-def test_runs_lists_the_study(done: Path) -> None:
+def test_folder_of_the_study_is_described_with_verb_state_designs_and_agents(done: Path) -> None:
     facts = facts_of(done)
     assert facts
     assert (facts.verb, facts.state, facts.trials) == ("study beyond", "finished", 2)

@@ -14,7 +14,7 @@ from mc_nested.workers.executor import JobEnded, JobReport
 from tests.learn.made_experiments import BAR, DOT, one_job, runs_of, small_preset
 
 
-def test_there_is_at_least_one_core_and_never_too_many() -> None:
+def test_number_of_cores_is_at_least_one_and_at_most_the_limit() -> None:
     assert 1 <= cores() <= MOST_JOBS
 
 
@@ -32,7 +32,7 @@ def test_a_terminal_shows_scores_beside_the_optimum() -> None:
         assert words in shown
 
 
-def test_without_a_terminal_there_is_a_line_now_and_then(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_without_a_terminal_study_progress_is_a_line_now_and_then(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(progress_module, "LINE_EVERY_S", 0.0)
     log = io.StringIO()
     with StudyProgress("sweep", StudyStatus([(JOB, None)]), Console(file=log, width=40)) as progress:
@@ -50,7 +50,7 @@ def test_without_a_terminal_a_short_experiment_says_nothing() -> None:
     assert log.getvalue() == ""
 
 
-def test_of_many_designs_only_the_trials_are_counted() -> None:
+def test_progress_of_many_designs_counts_trials_instead_of_naming_designs() -> None:
     scenarios = [replace(DOT, name=f"design {number}") for number in range(9)]
     job = one_job("nested", scenarios, 1)
     screen = io.StringIO()
@@ -96,7 +96,7 @@ def test_reports_of_all_processes_are_added_up() -> None:
     assert status.episodes == 80 + 4
 
 
-def test_what_was_done_before_counts_as_done_and_not_as_speed() -> None:
+def test_episodes_done_before_this_start_count_as_done_but_not_as_speed() -> None:
     nested, single = two_jobs()
     status = StudyStatus([(nested, outcome(9.0)), (single, None)])
     assert status.episodes == 80

@@ -25,7 +25,7 @@ from tests.cli.running import TRAIN, check_one_at_a_time, run, table
 from tests.full_disk import full_disk
 
 
-def test_a_training_leaves_everything_behind(trained: Path) -> None:
+def test_training_writes_config_tables_curve_checkpoint_and_summary(trained: Path) -> None:
     found = {path.name for path in trained.iterdir()}
     left = {"config.toml", "episodes.csv", "evaluations.csv", "curve.png", "checkpoint", "summary.json", "tensorboard"}
     assert found == {*left, "view"}
@@ -60,7 +60,7 @@ def test_the_preset_live_reaches_the_optimum_on_the_line_in_few_episodes(optimal
         assert summary["played_to_optimum"][trial] == {"episodes": len(played), "steps": sum(played)}
 
 
-def test_what_was_learnt_of_the_arena_is_drawn_beside_the_curve(optimal: Path) -> None:
+def test_map_of_the_learnt_arena_is_drawn_beside_the_curve(optimal: Path) -> None:
     found = {path.name: cv2.imread(str(path)) for path in optimal.glob("*.png")}
     assert {name: picture.shape[:2] for name, picture in found.items() if picture is not None} == {
         "curve.png": (840, 960),
@@ -68,7 +68,7 @@ def test_what_was_learnt_of_the_arena_is_drawn_beside_the_curve(optimal: Path) -
     }
 
 
-def test_a_training_that_imagines_goes_on_after_a_stop_to_the_same_files(tmp_path: Path) -> None:
+def test_stopped_training_with_imagination_resumes_to_the_same_files(tmp_path: Path) -> None:
     preset, design = write_preset(tmp_path / "preset.toml"), write_scenario(tmp_path / "small.toml", SMALL)
     words = ("train", "--preset", preset, "--scenario", design, "--episodes", "6")
     assert run(*words, "--out", tmp_path / "whole") == 0
@@ -104,7 +104,7 @@ def test_a_training_that_stops_at_the_optimum_says_after_how_many_episodes(
     ("more", "says"),
     [((), "expected: about 0 minutes of game time, 3 episodes"), (("--stop-at-optimum",), "expected: at most about 0")],
 )
-def test_a_live_training_says_before_how_long_it_should_take(
+def test_live_training_says_first_how_long_it_should_take(
     more: tuple[str, ...],
     says: str,
     tmp_path: Path,
@@ -134,7 +134,7 @@ def test_networks_that_diverge_end_the_training_in_one_line_and_are_not_saved(
     assert {path.name for path in (tmp_path / "new").iterdir()} <= {"config.toml", "tensorboard", "view"}
 
 
-def test_a_training_begun_from_another_has_its_policy_before_the_first_episode(optimal: Path, tmp_path: Path) -> None:
+def test_training_from_another_has_its_policy_before_the_first_episode(optimal: Path, tmp_path: Path) -> None:
     live = ("train", "--preset", "model-based", "--episodes", "6", "--trials", "2", "--seed", "9")
     assert run(*live, "--from", optimal, "--out", tmp_path / "on") == 0
     summary = json.loads((tmp_path / "on" / "summary.json").read_text())
@@ -149,7 +149,7 @@ def _first_steps(folder: Path) -> list[int]:
 
 
 @pytest.mark.parametrize("other", [("--preset", "paper"), ("--agent", "hierarchical"), ("--scenario", "small.toml")])
-def test_networks_that_do_not_fit_are_one_line(
+def test_training_from_a_run_with_other_networks_is_refused(
     optimal: Path,
     tmp_path: Path,
     other: tuple[str, str],
@@ -164,7 +164,7 @@ def test_networks_that_do_not_fit_are_one_line(
     assert not (tmp_path / "new").exists()
 
 
-def test_a_training_begun_from_another_that_can_not_be_saved_is_not_begun(
+def test_training_from_another_can_begin_again_after_a_full_disk(
     optimal: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     words = ("train", "--preset", "model-based", "--episodes", "6", "--from", optimal, "--out", tmp_path / "new")
@@ -232,7 +232,7 @@ def test_a_run_is_resumed_by_one_process_at_a_time(
     assert run("train", "--resume", tmp_path / "run") == 0
 
 
-def test_without_a_name_the_folder_is_said_at_the_beginning_and_at_the_end(
+def test_folder_without_a_name_is_printed_at_the_beginning_and_at_the_end(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.chdir(tmp_path)
@@ -273,7 +273,7 @@ def test_a_training_killed_before_its_first_checkpoint_begins_again(trained: Pat
     assert (tmp_path / "episodes.csv").read_bytes() == (trained / "episodes.csv").read_bytes()
 
 
-def test_a_lost_checkpoint_does_not_cost_the_tables(
+def test_resume_with_a_lost_checkpoint_is_refused_and_keeps_the_tables(
     trained: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     for name in ("config.toml", "episodes.csv"):
@@ -283,7 +283,7 @@ def test_a_lost_checkpoint_does_not_cost_the_tables(
     assert (tmp_path / "episodes.csv").read_bytes() == (trained / "episodes.csv").read_bytes()
 
 
-def test_a_disk_that_fills_up_costs_one_line_and_not_the_last_checkpoint(
+def test_full_disk_is_a_one_line_error_and_costs_no_file(
     trained: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     out = tmp_path / "run"
@@ -299,7 +299,7 @@ def test_a_disk_that_fills_up_costs_one_line_and_not_the_last_checkpoint(
 
 
 @pytest.mark.slow
-def test_a_pipe_that_does_not_know_epsilon_is_no_error_in_a_training(tmp_path: Path) -> None:
+def test_training_into_an_ascii_pipe_succeeds(tmp_path: Path) -> None:
     command = [sys.executable, "-m", "mc_nested.cli", "train", "--episodes", "1", "--out", str(tmp_path / "run")]
     environment = {**os.environ, "PYTHONIOENCODING": "ascii"}
     subprocess.run(command, capture_output=True, check=True, env=environment)
@@ -342,7 +342,7 @@ def test_a_truncated_checkpoint_is_refused(trained: Path, tmp_path: Path, capsys
 
 
 @pytest.mark.parametrize("error", [LiveError("it lagged"), DesktopError("the window has closed")])
-def test_a_training_whose_game_fails_is_saved_and_goes_on(
+def test_training_whose_game_fails_is_saved_and_can_be_resumed(
     error: McNestedError, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     open_live(monkeypatch, 30, error)
@@ -354,7 +354,7 @@ def test_a_training_whose_game_fails_is_saved_and_goes_on(
     assert run("train", "--resume", tmp_path / "run") == 0
 
 
-def test_a_training_bears_an_episode_that_a_mishap_spoils(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_training_repeats_an_episode_that_a_mishap_spoiled(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     open_live(monkeypatch, 30, LiveError("it lagged"), failures=3)
     live = ("--backend", "live", "--profile", "mine", "--episodes", "3")
     assert run("train", *live, "--out", tmp_path / "run") == 0

@@ -25,7 +25,7 @@ def files_of(path: Path) -> dict[str, bytes]:
     return {name: (path / name).read_bytes() for name in names}
 
 
-def test_a_training_leaves_everything_behind(team_run: Path) -> None:
+def test_team_training_writes_its_tables_summary_and_pictures(team_run: Path) -> None:
     summary = json.loads((team_run / "summary.json").read_text())
     assert (summary["builders"], summary["networks_kind"], summary["networks"]) == (3, "shared", 2)
     assert summary["starts"] == [[7, 14], [12, 14], [2, 14]]
@@ -90,7 +90,7 @@ def test_a_team_training_is_listed_among_the_runs(team_run: Path, capsys: pytest
     assert (found["episodes_done"], found["episodes"], found["optimum"]) == (80, 80, 21.0)
 
 
-def test_a_training_that_only_begun_can_be_resumed_and_a_damaged_one_says_so(
+def test_team_training_that_only_began_can_be_resumed_and_a_damaged_one_is_listed_as_damaged(
     team_run: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     begun = tmp_path / "begun"
@@ -104,7 +104,7 @@ def test_a_training_that_only_begun_can_be_resumed_and_a_damaged_one_says_so(
     assert json.loads(capsys.readouterr().out)["runs"][0]["state"] == "damaged"
 
 
-def test_every_trial_is_evaluated_and_commands_that_show_one_trial_say_so(
+def test_evaluate_scores_every_team_trial_and_play_is_refused_with_that_command(
     team_run: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     summary = json.loads((team_run / "summary.json").read_text())
@@ -114,7 +114,7 @@ def test_every_trial_is_evaluated_and_commands_that_show_one_trial_say_so(
     assert f"mc-nested runs evaluate {team_run}" in capsys.readouterr().err
 
 
-def test_another_training_begins_from_it(
+def test_training_from_a_team_run_has_its_policy_and_from_a_single_builders_run_is_refused(
     team_run: Path, trained: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     more = ("train", "--from", team_run, "--builders", "3", "--episodes", "1", "--out", tmp_path / "more")
@@ -157,7 +157,9 @@ def test_a_mistake_is_one_line_and_exit_code_2(
     check_mistake(["train", *several, *words, *out], says, trained, tmp_path, capsys)
 
 
-def test_a_changed_config_is_refused(team_run: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_config_with_two_builders_on_one_start_is_refused(
+    team_run: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     other, config = tmp_path / "other", (team_run / "config.toml").read_text()
     other.mkdir()
     (other / "config.toml").write_text(config.replace("[[7, 14], [12, 14], [2, 14]]", "[[7, 14], [7, 14]]"))

@@ -38,7 +38,7 @@ def test_below_the_optimum_the_next_step_is_to_train_twice_as_long() -> None:
     assert lines[1].startswith("next:")
 
 
-def test_the_command_names_whatever_is_not_the_default() -> None:
+def test_command_for_more_training_names_every_option_that_is_not_the_default() -> None:
     design = table_of(load_scenario("line")).model_copy(update={"step_limit": 50})
     changes = {"agent": "hierarchical", "preset_name": "my.toml", "stop_at_optimum": True, "scenario": design}
     (line, *_) = next_steps(Path("x"), config(**changes), is_at_optimum=False)
@@ -46,7 +46,7 @@ def test_the_command_names_whatever_is_not_the_default() -> None:
     assert line.endswith(f"mc-nested train --from x {more}"), "a design of that name, but another one"
 
 
-def test_an_engine_that_the_preset_does_not_name_is_named_again() -> None:
+def test_command_for_more_training_names_an_engine_that_differs_from_the_presets() -> None:
     other = load_preset("paper").changed(engine="torch", states="image")
     (line, *_) = next_steps(Path("x"), config(preset=other), is_at_optimum=False)
     assert "--preset paper --engine torch --states image --episodes 6000" in line
@@ -54,14 +54,14 @@ def test_an_engine_that_the_preset_does_not_name_is_named_again() -> None:
     assert "--engine" not in next_steps(Path("x"), image, is_at_optimum=False)[0]
 
 
-def test_what_was_learnt_on_the_virtual_client_is_played_there() -> None:
+def test_next_steps_of_a_training_on_the_virtual_client_name_that_backend() -> None:
     more, play, *_ = next_steps(Path("x"), config(backend="virtual"), is_at_optimum=False)
     assert more.endswith("--episodes 6000 --backend virtual")
     assert "mc-nested play x --backend virtual shows what it builds" in play
 
 
 @pytest.mark.parametrize(("profile", "words"), [("default", ""), ("mine", " --profile mine")])
-def test_what_was_learnt_in_a_game_is_built_there_again(profile: str, words: str) -> None:
+def test_next_steps_of_a_live_training_name_its_backend_and_profile(profile: str, words: str) -> None:
     live = config(backend="live", profile=profile)
     assert next_steps(Path("x"), live, is_at_optimum=True) == [
         f"next:       mc-nested play x --backend live{words} builds it again"

@@ -36,7 +36,7 @@ def test_the_curve_takes_each_row_once() -> None:
     assert curve.after([*first, *rows(3, 4, trial=1)]) == (2, 3)
 
 
-def test_a_long_curve_has_so_many_points_and_no_more() -> None:
+def test_long_curve_is_reduced_to_the_largest_number_of_points() -> None:
     curve = ScoreCurve()
 
     points = curve.after(rows(*np.linspace(0, 20, 3000)))
@@ -77,7 +77,7 @@ def test_before_the_first_tick_the_arena_is_empty() -> None:
     )
 
 
-def test_all_trials_are_counted_cell_by_cell() -> None:
+def test_view_counts_the_agents_and_blocks_of_all_trials_in_each_cell() -> None:
     trainer, view, board = a_training("paper", 5)
     for _ in range(200):
         trainer.tick()
@@ -91,7 +91,7 @@ def test_all_trials_are_counted_cell_by_cell() -> None:
     assert shown_learning(board).episodes == int(trainer.episodes_done.sum())
 
 
-def test_what_is_believed_is_shown_of_a_single_trial() -> None:
+def test_view_shows_the_beliefs_of_a_single_trial() -> None:
     trainer, view, board = a_training("model-based", 1)
     for _ in range(60):
         trainer.tick()
@@ -104,7 +104,7 @@ def test_what_is_believed_is_shown_of_a_single_trial() -> None:
     assert "of 11 cells known" in shown_learning(board).exploring
 
 
-def test_game_time_left_is_said_of_a_running_game_alone() -> None:
+def test_game_time_left_is_shown_only_for_a_live_training() -> None:
     _, simulated, board = a_training("model-based", 1)
     simulated.show()
     assert shown_learning(board).game_minutes_left is None

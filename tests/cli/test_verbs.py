@@ -9,7 +9,7 @@ from mc_nested.learn.runs.checkpoint import FILE
 from tests.cli.running import TRAIN, run
 
 
-def test_another_verbs_folder_is_refused_with_its_verb(trained: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_studies_refuse_a_training_folder_and_name_its_verb(trained: Path, capsys: pytest.CaptureFixture[str]) -> None:
     for verb in ("reproduce", "study sweep", "study benchmark"):
         assert run(*verb.split(), "--resume", trained) == 2
         said = capsys.readouterr().err

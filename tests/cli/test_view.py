@@ -12,7 +12,7 @@ from tests.cli.running import run
 from tests.view.shown import LIVE
 
 
-def test_a_run_that_has_ended_is_told_with_its_arena(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_view_prints_an_ended_run_with_its_arena(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     StatusFiles(tmp_path).write(LIVE.model_copy(update={"ended": "finished"}))
 
     assert run("view", tmp_path) == 0
@@ -23,14 +23,16 @@ def test_a_run_that_has_ended_is_told_with_its_arena(tmp_path: Path, capsys: pyt
     assert [line.rstrip() for line in lines[5:9]] == [". . . x", ". . o .", ". # o .", "^ . . ."]
 
 
-def test_a_run_that_was_killed_is_told_as_gone(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_view_of_a_killed_run_says_that_its_process_is_gone(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     StatusFiles(tmp_path).write(LIVE)
 
     assert run("view", tmp_path) == 0
     assert capsys.readouterr().out.startswith("the run's process is gone")
 
 
-def test_a_run_without_a_view_is_told_what_to_do(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_view_of_a_folder_without_a_view_is_refused_with_advice(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     (tmp_path / "config.toml").write_text("")
 
     assert run("view", tmp_path) == 2

@@ -38,7 +38,7 @@ def test_play_films_its_episode(kind: str, optimal: Path, tmp_path: Path, capsys
     assert list(tmp_path.iterdir()) == [film]
 
 
-def test_build_films_what_it_builds(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_build_films_every_step(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     film = tmp_path / "film.gif"
     assert run("build", "zigzag", "--video", film) == 0
     assert f"film: {film}" in capsys.readouterr().out
@@ -49,7 +49,7 @@ def played(optimal: Path, film: Path) -> int:
     return run("play", optimal, "--backend", "live", "--profile", "mine", "--video", film)
 
 
-def test_an_episode_that_is_stopped_leaves_a_film_of_what_was_played(
+def test_stopped_episode_leaves_a_film_of_the_steps_played(
     optimal: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     open_live(monkeypatch, 5, StoppedError("stopped by f12"), 1)
@@ -83,7 +83,7 @@ def test_a_game_that_never_begins_leaves_no_film_and_says_so(
     assert list(tmp_path.iterdir()) == []
 
 
-def test_without_a_film_the_game_is_left_as_it_is() -> None:
+def test_game_is_not_wrapped_if_no_film_is_asked_for() -> None:
     game = GridGame(LINE)
     with filmed(game, None, LINE, None) as same:
         assert same is game
