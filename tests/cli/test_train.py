@@ -50,7 +50,7 @@ def test_training_writes_config_tables_curve_checkpoint_and_summary(trained: Pat
     assert summary["env_steps"] == sum(int(row["steps"]) for row in episodes)
 
 
-def test_the_preset_live_reaches_the_optimum_on_the_line_in_few_episodes(optimal: Path) -> None:
+def test_preset_model_based_reaches_the_optimum_on_the_line_in_at_most_40_episodes(optimal: Path) -> None:
     summary = json.loads((optimal / "summary.json").read_text())
     assert summary["final_scores"] == [21.0, 21.0]
     rows = [row for name in ("episodes", "evaluations") for row in table(optimal / f"{name}.csv")]

@@ -20,7 +20,7 @@ if not sys.platform.startswith("linux"):
     pytest.skip("the commands of a Linux shell", allow_module_level=True)
 
 
-def test_a_line_that_is_not_printed_is_found() -> None:
+def test_not_shown_finds_the_first_line_that_was_not_printed() -> None:
     printed = "  first line  \nfinal scores (optimum 21): 19.5, 21\nlast\n"
     assert not_shown("final scores (optimum 21): …\nlast", printed) is None
     assert not_shown("  first line\n\nlast\n", printed) is None
@@ -38,25 +38,25 @@ def test_a_line_that_is_not_printed_is_found() -> None:
         ({"wrong": 0, "replay": [{"differences": []}, {"differences": [{"action": 1}]}]}, ["differences"]),
     ],
 )
-def test_a_benchmark_that_found_something_wrong_is_found(figures: object, wrong: list[str]) -> None:
+def test_wrong_figures_of_a_benchmark_are_found(figures: object, wrong: list[str]) -> None:
     assert what_is_wrong(figures) == wrong
 
 
-def test_a_command_without_a_rule_is_named(tmp_path: Path) -> None:
+def test_command_without_a_rule_is_an_error_that_names_it(tmp_path: Path) -> None:
     unknown = Step("docs/page.md", 3, "command", "make me a sandwich")
     with Reader(tmp_path) as reader, pytest.raises(StepError, match=r"docs/page.md:3: make me a sandwich\nno rule"):
         reader.follow(unknown)
 
 
 @pytest.mark.slow
-def test_a_command_that_fails_is_named(tmp_path: Path) -> None:
+def test_command_that_fails_is_an_error_with_its_exit_code_and_output(tmp_path: Path) -> None:
     wrong = Step("docs/page.md", 3, "command", "mc-nested scenarios no-such-design")
     with Reader(tmp_path) as reader, pytest.raises(StepError, match="exit code 2:\nmc-nested: no scenario"):
         reader.follow(wrong)
 
 
 @pytest.mark.slow
-def test_a_program_that_fails_in_the_game_is_named(tmp_path: Path) -> None:
+def test_program_that_fails_in_the_game_is_an_error_with_its_page_and_line(tmp_path: Path) -> None:
     wrong = Step("docs/page.md", 3, "snippet", f'make = dict({LIVE_SNIPPET})\nmake["scenario"]\n')
     with Reader(tmp_path) as reader, pytest.raises(StepError, match=r"(?s)docs/page.md:3: .*KeyError: 'scenario'"):
         reader.follow(wrong)

@@ -93,7 +93,7 @@ def test_every_link_leads_to_a_page_and_to_an_anchor_that_is_there(read: dict[Pa
     assert broken == []
 
 
-def test_nothing_is_fetched_from_elsewhere(read: dict[Path, Page], site: Path) -> None:
+def test_site_fetches_nothing_from_other_servers(read: dict[Path, Page], site: Path) -> None:
     elsewhere = [target for page in read.values() for target in page.loaded if is_elsewhere(target)]
     assert elsewhere == []
     own = [path for path in site.rglob("*.css") if "@import" in path.read_text("utf-8")]
@@ -142,7 +142,7 @@ def test_readme_is_one_page_that_says_how_to_stop() -> None:
     assert "**To stop it: press F12" in readme
 
 
-def test_every_page_that_links_to_a_file_of_the_project_links_to_one_that_is_there() -> None:
+def test_every_link_to_a_project_file_leads_to_an_existing_file() -> None:
     others = ["ARCHITECTURE.md", "CONTRIBUTING.md", "CHANGELOG.md", "mc_nested/live/FACTS.md"]
     broken = []
     for page in [*pages(), *others]:
@@ -152,6 +152,6 @@ def test_every_page_that_links_to_a_file_of_the_project_links_to_one_that_is_the
     assert broken == []
 
 
-def test_no_page_holds_two_versions_of_its_text_that_were_not_merged() -> None:
+def test_no_page_contains_merge_conflict_markers() -> None:
     texts = {page: (ROOT / page).read_text("utf-8") for page in pages()}
     assert [page for page, text in texts.items() if re.search("^(<{7}|>{7}) ", text, re.MULTILINE)] == []

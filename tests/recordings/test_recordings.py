@@ -41,16 +41,16 @@ def font_for(path: Path, system: System) -> Font:
     return load_font(beside if beside.is_file() else font_of_recording(path, system))
 
 
-def test_there_are_some() -> None:
+def test_folder_has_recordings() -> None:
     assert RECORDINGS
 
 
 @pytest.mark.parametrize("path", RECORDINGS, ids=lambda path: path.stem)
-def test_it_is_read_and_decided_as_it_was(path: Path) -> None:
+def test_recording_is_read_and_decided_as_it_was(path: Path) -> None:
     check(path, System.here())
 
 
-def test_one_that_is_dropped_in_finds_its_font(tmp_path: Path) -> None:
+def test_recording_that_is_dropped_in_finds_its_font(tmp_path: Path) -> None:
     system = System("linux", tmp_path, {})
     dropped = tmp_path / "line.mcap"
     dropped.write_bytes((VIRTUAL / "virtual-client-1.20.1.mcap").read_bytes())

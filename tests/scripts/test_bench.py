@@ -29,7 +29,7 @@ def reader(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 @pytest.mark.parametrize("name", bench.BENCHES)
-def test_each_name_is_a_module_that_says_what_it_measures_and_has_options(name: str) -> None:
+def test_each_bench_is_a_module_with_a_docstring_options_and_measure(name: str) -> None:
     module = importlib.import_module(f"scripts.benches.{name.replace('-', '_')}")
     parser = ArgumentParser()
     module.add_options(parser)
@@ -39,20 +39,20 @@ def test_each_name_is_a_module_that_says_what_it_measures_and_has_options(name: 
 
 
 @pytest.mark.usefixtures("reader")
-def test_figures_are_one_json_object_and_what_is_wrong_ends_with_1(capsys: pytest.CaptureFixture[str]) -> None:
+def test_json_option_prints_one_object_and_a_wrong_figure_exits_with_1(capsys: pytest.CaptureFixture[str]) -> None:
     assert bench.main(["reader", "--json"]) == 0
     assert json.loads(capsys.readouterr().out) == {"frames": 4, "reader": {"wrong": 1}}
     assert bench.main(["reader", "--frames", "10", "--json"]) == 1
 
 
 @pytest.mark.usefixtures("reader")
-def test_an_option_that_can_not_be_ends_with_2_and_says_so(capsys: pytest.CaptureFixture[str]) -> None:
+def test_impossible_option_exits_with_2_and_says_why(capsys: pytest.CaptureFixture[str]) -> None:
     with pytest.raises(SystemExit, match="2"):
         bench.main(["reader", "--frames", "1"])
     assert capsys.readouterr().err.endswith("bench.py reader: error: --frames must be at least 2\n")
 
 
-def test_an_unknown_name_ends_with_2_and_the_names_are_listed(capsys: pytest.CaptureFixture[str]) -> None:
+def test_unknown_bench_exits_with_2_and_lists_the_names(capsys: pytest.CaptureFixture[str]) -> None:
     with pytest.raises(SystemExit, match="2"):
         bench.main(["screen"])
     assert "invalid choice: 'screen' (choose from 'live', 'reader'" in capsys.readouterr().err

@@ -18,7 +18,7 @@ BROWSER = Program(("chromium", "google-chrome"), "chromium")
 WANTED = (WESTON, BROWSER, XVFB, XDOTOOL)
 
 
-def test_root_gets_what_is_missing_and_nothing_else(
+def test_root_installs_only_the_missing_packages(
     tmp_path: Path, programs: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(os, "geteuid", lambda: 0)
@@ -44,13 +44,13 @@ def test_user_who_is_not_root_gets_the_command_to_run(
     assert not (tmp_path / "log").exists()
 
 
-def test_where_apt_is_missing_the_line_says_what_to_install(tmp_path: Path, programs: Path) -> None:
+def test_error_without_apt_names_the_packages_to_install(tmp_path: Path, programs: Path) -> None:
     assert not list(programs.iterdir())
     with pytest.raises(MissingError, match=r"a test needs .* chromium weston xdotool xvfb$"):
         install("a test", WANTED, OPENGL, silent, tmp_path / "log")
 
 
-def test_nothing_is_asked_of_apt_where_all_is_there(tmp_path: Path, programs: Path) -> None:
+def test_apt_is_not_run_if_every_program_is_there(tmp_path: Path, programs: Path) -> None:
     for name in ("weston", "chromium", "Xvfb", "xdotool"):
         write_program(programs, name)
     install("a test", WANTED, OPENGL, silent, tmp_path / "log")

@@ -112,7 +112,7 @@ def test_the_stand_in_is_up_until_it_is_taken_down(
 
 
 @for_linux
-def test_a_stand_in_that_does_not_come_up_says_why_and_is_down(kept: Callable[[str], Path]) -> None:
+def test_stand_in_that_fails_to_start_gives_its_exit_code_and_is_down(kept: Callable[[str], Path]) -> None:
     assert script.main(["up"], kept("sys.exit(3)")) == 3
     assert script.main(["status"], kept("")) == 1
 
@@ -132,7 +132,7 @@ def test_a_stand_in_whose_world_does_not_answer_is_half_up_and_is_started_anew(
 
 
 @for_linux
-def test_ctrl_c_ends_what_was_started(kept: Callable[[str], Path], monkeypatch: pytest.MonkeyPatch) -> None:
+def test_ctrl_c_during_up_ends_the_keeper(kept: Callable[[str], Path], monkeypatch: pytest.MonkeyPatch) -> None:
     cache = kept("time.sleep(60)")
 
     def interrupted(_seconds: float) -> None:
@@ -144,7 +144,7 @@ def test_ctrl_c_ends_what_was_started(kept: Callable[[str], Path], monkeypatch: 
     assert script.keeper_of(cache) is None
 
 
-def test_the_last_line_of_a_log_is_the_last_that_says_something(tmp_path: Path) -> None:
+def test_last_line_of_a_log_is_its_last_line_that_is_not_blank(tmp_path: Path) -> None:
     log = tmp_path / "log"
     log.write_bytes(b"first\nlast \xff\n \n\n")
     assert last_line(log) == "last \N{REPLACEMENT CHARACTER}"
@@ -152,7 +152,7 @@ def test_the_last_line_of_a_log_is_the_last_that_says_something(tmp_path: Path) 
     assert "is empty" in last_line(log)
 
 
-def test_the_profile_is_one_that_mc_nested_reads(tmp_path: Path) -> None:
+def test_profile_of_the_stand_in_is_loaded_by_mc_nested(tmp_path: Path) -> None:
     profile = load_profile(write_profile(tmp_path / "profile.toml", Path("/some/where/ascii.png")))
     assert profile.screen.font_path() == Path("/some/where/ascii.png")
     assert profile.game.dialect == "1.17"
@@ -223,7 +223,7 @@ def _say(standin: Standin, command: str) -> None:
 
 
 @pytest.mark.standin
-def test_a_block_that_the_server_refuses_changes_nothing_as_in_the_game(standin: Standin) -> None:
+def test_block_that_the_server_refuses_leaves_player_and_world_unchanged(standin: Standin) -> None:
     _say(standin, "/item replace entity @s hotbar.0 with stone 1")
     _say(standin, "/fill 8 5 8 8 6 8 air")
     _say(standin, "/tp @s 8.5 5 8.5 0 90")

@@ -72,7 +72,7 @@ def test_npm_that_fails_is_reported_in_one_line(tmp_path: Path, programs: Path) 
     assert "no network" in (tmp_path / "log").read_text()
 
 
-def test_what_a_lock_file_pins_is_installed_once(tmp_path: Path, programs: Path) -> None:
+def test_packages_of_a_lock_file_are_installed_once(tmp_path: Path, programs: Path) -> None:
     source = tmp_path / "source"
     source.mkdir()
     (source / "package.json").write_text("{}")

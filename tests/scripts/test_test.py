@@ -26,11 +26,11 @@ def script(code: str, *, is_beside: bool = False) -> SuiteCheck:
 
 
 @pytest.mark.parametrize("path", KERNELS)
-def test_tests_of_compiled_code_are_where_it_looks_for_them(path: str) -> None:
+def test_every_listed_test_of_compiled_code_exists(path: str) -> None:
     assert (ROOT / path).is_file()
 
 
-def test_a_commit_needs_nothing_that_all_does_not_have() -> None:
+def test_checks_of_a_commit_are_a_part_of_all_checks() -> None:
     assert set(COMMIT) < set(ALL)
 
 
@@ -64,7 +64,7 @@ def test_the_checks_go_on_after_a_failure_which_the_table_shows(capfd: pytest.Ca
     ]
 
 
-def test_the_tests_that_failed_stand_below_their_row(tmp_path: Path) -> None:
+def test_failed_tests_are_listed_below_their_checks_row(tmp_path: Path) -> None:
     test_file = tmp_path / "test_two.py"
     test_file.write_text("def test_right(): pass\ndef test_wrong(): assert False\n")
     check = SuiteCheck(["pytest", "-q", "-p", "no:cacheprovider", f"--rootdir={tmp_path}", str(test_file)], 1)
@@ -73,7 +73,7 @@ def test_the_tests_that_failed_stand_below_their_row(tmp_path: Path) -> None:
     assert second.strip() == "test_two::test_wrong"
 
 
-def test_a_check_that_is_not_there_is_refused(capsys: pytest.CaptureFixture[str]) -> None:
+def test_unknown_check_is_refused(capsys: pytest.CaptureFixture[str]) -> None:
     with pytest.raises(SystemExit) as ended:
         main(["--only", "nothing"])
     assert ended.value.code == 2
@@ -82,7 +82,7 @@ def test_a_check_that_is_not_there_is_refused(capsys: pytest.CaptureFixture[str]
 
 @pytest.mark.skipif(os.name != "posix", reason="Windows sends no signal to a group")
 @pytest.mark.parametrize("is_beside", [False, True])
-def test_ctrl_c_ends_everything_that_was_started(*, is_beside: bool) -> None:
+def test_ctrl_c_ends_every_process_that_was_started(*, is_beside: bool) -> None:
     checks = "{'beside': beside, 'stays': stays}" if is_beside else "{'stays': stays}"
     program = (
         "import sys; from pathlib import Path; from scripts.test import SuiteCheck, run_all\n"

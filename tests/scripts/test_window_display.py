@@ -30,7 +30,7 @@ def is_there(pid: int) -> bool:
 
 
 @pytest.mark.parametrize(("names", "is_ended"), [("lambda name: True", True), ("lambda name: False", False)])
-def test_what_a_program_leaves_behind_is_ended_and_collected_by_its_name(*, names: str, is_ended: bool) -> None:
+def test_process_that_a_program_leaves_behind_is_ended_only_if_its_name_matches(*, names: str, is_ended: bool) -> None:
     command = [sys.executable, "-c", ADOPTS, names]
     with subprocess.Popen(command, cwd=ROOT, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True) as adopting:
         assert adopting.stdout is not None
@@ -40,7 +40,7 @@ def test_what_a_program_leaves_behind_is_ended_and_collected_by_its_name(*, name
         adopting.communicate("")
 
 
-def test_process_that_does_not_listen_is_killed_at_the_end_of_the_block(
+def test_process_that_does_not_end_on_request_is_killed_at_the_end_of_the_block(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("scripts.window_display.PATIENCE_S", 0.2)
@@ -50,7 +50,7 @@ def test_process_that_does_not_listen_is_killed_at_the_end_of_the_block(
     assert process.returncode == -9
 
 
-def test_waiting_ends_as_soon_as_it_is_so_and_when_the_time_is_over() -> None:
+def test_wait_until_returns_once_the_condition_holds_or_the_time_is_over() -> None:
     began = time.monotonic()
     assert wait_until(lambda: time.monotonic() > began + 0.1, 10)
     assert not wait_until(lambda: False, 0.1)

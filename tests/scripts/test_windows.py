@@ -55,12 +55,12 @@ def place_of_tests(module: Path) -> Path:
     return Path("tests", *parts[:-1], f"test_{module.name}")
 
 
-def test_every_place_is_there_with_its_reason() -> None:
+def test_every_place_where_windows_differs_exists_and_has_a_reason() -> None:
     assert [place for place in WHERE_WINDOWS_DIFFERS if not (ROOT / place).exists()] == []
     assert all(WHERE_WINDOWS_DIFFERS.values())
 
 
-def test_what_asks_on_which_system_it_runs_is_tested_on_windows() -> None:
+def test_every_module_that_asks_for_the_system_is_tested_on_windows() -> None:
     files = [
         path.relative_to(ROOT) for top in ("mc_nested", "sim", "calibration") for path in (ROOT / top).rglob("*.py")
     ]

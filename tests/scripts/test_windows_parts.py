@@ -26,7 +26,7 @@ def pins(name: str) -> dict[str, str]:
     return {match[1]: match[2] for match in found if match}
 
 
-def test_every_package_is_pinned_by_the_version_of_the_constraints_and_its_whole_hash() -> None:
+def test_every_package_is_pinned_by_the_constraints_version_and_its_whole_hash() -> None:
     constraints: dict[str, str] = {}
     for line in (ROOT / "constraints.txt").read_text("utf-8").splitlines():
         name, _, rest = line.partition("==")
@@ -53,7 +53,7 @@ def write_source(folder: Path, content: bytes = b"VALUE = 1\n") -> str:
 
 
 @pytest.mark.slow
-def test_a_source_is_unpacked_and_never_built_and_another_file_under_its_name_is_refused(
+def test_source_archive_is_unpacked_and_one_with_another_hash_is_refused(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     pinned, log = write_source(tmp_path / "index"), tmp_path / "log"
@@ -69,5 +69,5 @@ def test_a_source_is_unpacked_and_never_built_and_another_file_under_its_name_is
         parts._sources(pip, tmp_path / "second", log)
 
 
-def test_a_path_is_named_as_windows_under_wine_names_it(tmp_path: Path) -> None:
+def test_windows_path_is_the_path_that_wine_gives_a_file(tmp_path: Path) -> None:
     assert parts.windows_path(tmp_path / "a b") == "Z:" + str(tmp_path / "a b").replace("/", "\\")

@@ -14,7 +14,7 @@ LEAVES_ONE_BEHIND = "import subprocess; print('x' * 300_000 + 'end'); subprocess
 STAYS = "import time; print('here', flush=True); time.sleep(60)"
 
 
-def test_all_that_it_printed_has_come_at_its_end_though_the_pipe_stays_open(tmp_path: Path) -> None:
+def test_whole_output_has_arrived_at_a_programs_end_although_its_pipe_stays_open(tmp_path: Path) -> None:
     with printing([sys.executable, "-c", LEAVES_ONE_BEHIND], cwd=tmp_path, env=os.environ) as program:
         assert program.wait(5) == 0
         assert len(program.printed()) == 300_004

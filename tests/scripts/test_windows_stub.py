@@ -5,7 +5,7 @@ import struct
 from scripts.windows_stub import stub_dll
 
 
-def test_its_one_export_is_forwarded_to_the_function_that_fills_memory_alike() -> None:
+def test_stub_dll_forwards_its_one_export_to_system_function_036() -> None:
     image = stub_dll()
     header = struct.unpack_from("<I", image, 0x3C)[0]
     assert image[:2] == b"MZ"

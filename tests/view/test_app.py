@@ -133,12 +133,14 @@ def live(tmp_path: Path) -> Path:
 
 @pytest.mark.parametrize("size", SIZES)
 @pytest.mark.parametrize("name", STATUSES)
-def test_its_screens(live: Path, name: str, size: str, snapshot: SnapshotAssertion) -> None:
+def test_screen_of_each_status_matches_its_snapshot(
+    live: Path, name: str, size: str, snapshot: SnapshotAssertion
+) -> None:
     assert shown(live, STATUSES[name], SIZES[size], nothing) == snapshot
 
 
 @pytest.mark.parametrize("name", STATUSES)
-def test_a_resized_screen_is_the_same_as_one_of_that_size(tmp_path: Path, live: Path, name: str) -> None:
+def test_resized_screen_equals_one_opened_at_that_size(tmp_path: Path, live: Path, name: str) -> None:
     async def resize(_app: ViewApp, pilot: Pilot[None]) -> None:
         await pilot.resize_terminal(*SIZES["200x60"])
 
@@ -153,7 +155,7 @@ def test_a_run_whose_process_is_gone_says_so(tmp_path: Path) -> None:
     assert "✗ the run's process is gone; it was last seen at 01:48:20" in screen
 
 
-def test_it_shows_what_is_published_while_it_looks(live: Path) -> None:
+def test_view_shows_a_status_that_is_published_while_it_is_open(live: Path) -> None:
     async def go_on(app: ViewApp, pilot: Pilot[None]) -> None:
         StatusFiles(live).write(LIVE.model_copy(update={"doing": "resets the arena"}))
         await until_it_looks(app, pilot)
@@ -207,7 +209,7 @@ def test_p_is_no_longer_offered_once_the_run_says_that_it_can_not_pause(live: Pa
     assert "pause" not in shown(live, LIVE, SIZES["80x24"], learn)
 
 
-def test_a_run_that_can_not_pause_is_not_asked_to_and_p_is_not_offered(live: Path) -> None:
+def test_run_that_cannot_pause_is_not_asked_for_a_pause_and_p_is_not_offered(live: Path) -> None:
     screen, heard = pressed(live, "p", status=LIVE.model_copy(update={"can_pause": False}))
 
     assert not heard.pause
@@ -215,7 +217,7 @@ def test_a_run_that_can_not_pause_is_not_asked_to_and_p_is_not_offered(live: Pat
     assert " s stop" in screen
 
 
-def test_ctrl_c_stops_the_run_whose_own_view_it_is(live: Path) -> None:
+def test_ctrl_c_in_the_runs_own_view_stops_the_run(live: Path) -> None:
     assert pressed(live, "ctrl+c", closes_at_end=True)[1].stop
 
 
@@ -226,7 +228,7 @@ def pressing(*keys: str) -> Act:
     return press
 
 
-def test_p_goes_on_where_another_view_paused(live: Path) -> None:
+def test_p_resumes_a_run_that_another_view_paused(live: Path) -> None:
     (live / FOLDER).mkdir()
     requests = Requests(live)
     ask_pause(live)
@@ -239,7 +241,9 @@ def test_p_goes_on_where_another_view_paused(live: Path) -> None:
 @pytest.mark.parametrize(
     ("keys", "answer"), [(["y"], True), (["n"], False), (["left", "y"], None)], ids=["yes", "no", "not on the screen"]
 )
-def test_a_question_that_is_on_the_screen_is_answered(live: Path, keys: list[str], answer: bool | None) -> None:
+def test_y_and_n_answer_a_question_only_while_it_is_on_the_screen(
+    live: Path, keys: list[str], answer: bool | None
+) -> None:
     (live / FOLDER).mkdir()
     requests = Requests(live)
 
@@ -249,7 +253,7 @@ def test_a_question_that_is_on_the_screen_is_answered(live: Path, keys: list[str
 
 
 @pytest.mark.parametrize("keys", [["s"], ["p"], ["left", "s"]])
-def test_nothing_is_asked_of_a_run_that_has_ended(live: Path, keys: list[str]) -> None:
+def test_keys_ask_nothing_of_a_run_that_has_ended(live: Path, keys: list[str]) -> None:
     screen, heard = pressed(live, *keys, status=STATUSES["ended"])
 
     assert "s stop" not in screen
@@ -268,7 +272,7 @@ def test_a_long_question_is_shown_whole_with_its_keys(live: Path) -> None:
 
 
 @pytest.mark.parametrize("size", SIZES)
-def test_an_arena_that_comes_later_is_shown_as_one_that_was_there(tmp_path: Path, live: Path, size: str) -> None:
+def test_arena_that_is_published_later_is_shown_like_one_from_the_start(tmp_path: Path, live: Path, size: str) -> None:
     async def come(app: ViewApp, pilot: Pilot[None]) -> None:
         StatusFiles(live).write(LIVE)
         await until_it_looks(app, pilot)
@@ -289,7 +293,7 @@ def test_an_arena_that_comes_later_is_shown_as_one_that_was_there(tmp_path: Path
         (["home", "left"], "01:48:20"),
     ],
 )
-def test_the_past_is_shown_moment_by_moment(live: Path, keys: list[str], at: str) -> None:
+def test_keys_move_through_the_past_moment_by_moment(live: Path, keys: list[str], at: str) -> None:
     files = StatusFiles(live)
     for second in range(20):
         files.write(LIVE.model_copy(update={"at": LIVE.at + second, "doing": f"does something at {second}"}))
@@ -315,7 +319,7 @@ def test_the_end_key_leads_back_to_now(live: Path) -> None:
     assert "now, 01:48:20" in shown(live, LIVE, SIZES["80x24"], press)
 
 
-def test_it_closes_by_itself_once_the_run_has_ended(live: Path) -> None:
+def test_view_closes_by_itself_once_the_run_has_ended(live: Path) -> None:
     async def end(app: ViewApp, pilot: Pilot[None]) -> None:
         await until_it_looks(app, pilot)
         assert app.is_running

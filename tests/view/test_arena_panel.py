@@ -8,7 +8,7 @@ def drawn(arena: ArenaSeen, trials: int = 1, width: int = 8, height: int = 4) ->
     return [line.rstrip() for line in arena_panel(arena, trials, width, height).plain.split("\n")]
 
 
-def test_the_far_edge_is_on_top_with_a_sign_a_cell() -> None:
+def test_arena_is_drawn_with_its_far_edge_on_top_and_one_sign_a_cell() -> None:
     assert drawn(SMALL) == [
         ". . . x",
         ". . o .",
@@ -17,7 +17,7 @@ def test_the_far_edge_is_on_top_with_a_sign_a_cell() -> None:
     ]
 
 
-def test_what_the_agent_believes_is_drawn_where_nothing_stands() -> None:
+def test_beliefs_are_drawn_in_cells_where_nothing_stands() -> None:
     believing = SMALL.model_copy(update={"beliefs": ("....", "--?.", "o...", "....")})
 
     assert drawn(believing) == [
@@ -44,21 +44,21 @@ def test_all_trials_are_drawn_on_one_map() -> None:
     ]
 
 
-def test_a_large_panel_has_large_cells_and_what_the_signs_mean() -> None:
+def test_large_panel_has_large_cells_and_a_legend() -> None:
     lines = drawn(SMALL, width=40, height=12)
 
     assert lines[:4] == [".   .   .   x", "", ".   .   o   .", ""]
     assert lines[8] == "^ agent  # built  x off the design"
 
 
-def test_with_parts_a_cell_to_build_has_its_parts_number() -> None:
+def test_cells_to_build_are_drawn_with_their_parts_number() -> None:
     stripes = ArenaSeen.of(STRIPES).model_copy(update={"stands": (Standing(1, 3, 1),)})
     lines = drawn(stripes, width=60, height=8)
     assert lines[:3] == [". . . . .", ". # 1 . .", ". 2 2 2 ."]
     assert "1 part 1  2 part 2" in lines[5]
 
 
-def test_a_narrow_panel_has_a_column_a_cell() -> None:
+def test_narrow_panel_has_one_column_a_cell() -> None:
     assert drawn(SMALL, width=4) == ["...x", "..o.", ".#o.", "^..."]
 
 

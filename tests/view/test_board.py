@@ -21,7 +21,7 @@ def a_board() -> tuple[Board, Clock]:
     return Board("train", "a title", clock), clock
 
 
-def test_a_board_begins_with_nothing_but_its_name_and_the_time() -> None:
+def test_new_board_has_only_its_kind_its_title_and_the_time() -> None:
     board, clock = a_board()
     clock.now = 101.0
 
@@ -36,7 +36,7 @@ def test_a_board_begins_with_nothing_but_its_name_and_the_time() -> None:
     )
 
 
-def test_the_board_says_since_when_something_is_done() -> None:
+def test_board_says_since_when_the_current_activity_lasts() -> None:
     board, clock = a_board()
     clock.now = 105.0
     board.note("waits", on="the game")
@@ -47,7 +47,7 @@ def test_the_board_says_since_when_something_is_done() -> None:
     assert (status.doing, status.mood, status.since) == ("waits for the game", "waits", 105.0)
 
 
-def test_who_types_or_walks_or_clicks_waits_no_longer() -> None:
+def test_typing_or_walking_ends_the_waiting() -> None:
     board, clock = a_board()
     board.does("Arena")
     board.note("waits", on="the game")
@@ -88,7 +88,7 @@ def test_repeating_the_current_activity_changes_nothing() -> None:
     assert board.status().since == 100.0
 
 
-def test_an_action_that_is_done_again_begins_anew() -> None:
+def test_same_action_again_counts_its_time_anew() -> None:
     board, clock = a_board()
     board.note("acts", action=0, cell=(0, 14))
     clock.now = 105.0
@@ -97,7 +97,7 @@ def test_an_action_that_is_done_again_begins_anew() -> None:
     assert board.status().since == 105.0
 
 
-def test_what_follows_an_action_is_not_stuck_however_long_it_takes() -> None:
+def test_board_says_works_once_an_action_is_done() -> None:
     board, _ = a_board()
     board.note("acts", action=0, cell=(0, 0))
     board.note("done", cell=(0, 1), placed=None, seconds=0.3)
@@ -105,7 +105,7 @@ def test_what_follows_an_action_is_not_stuck_however_long_it_takes() -> None:
     assert (board.status().doing, board.status().mood) == ("chooses what to do next, or practises", "works")
 
 
-def test_after_a_pause_the_activity_begins_anew() -> None:
+def test_activity_counts_its_time_anew_after_a_pause() -> None:
     board, clock = a_board()
     board.show(paused=True)
     clock.now = 160.0
@@ -114,7 +114,7 @@ def test_after_a_pause_the_activity_begins_anew() -> None:
     assert (board.status().paused, board.status().since) == (False, 160.0)
 
 
-def test_the_detail_ends_with_what_it_is_a_part_of() -> None:
+def test_detail_is_cleared_once_the_next_action_begins() -> None:
     board, _ = a_board()
     board.note("acts", action=0, cell=(0, 0))
     board.note("plans", key="w", ticks=5, sneak=False)
@@ -124,7 +124,7 @@ def test_the_detail_ends_with_what_it_is_a_part_of() -> None:
     assert board.status().detail == ""
 
 
-def test_the_last_actions_are_kept_with_the_name_they_began_with() -> None:
+def test_board_keeps_the_last_actions_with_their_names() -> None:
     board, _ = a_board()
     for number in range(MOST_ACTIONS + 5):
         board.note("acts", action=6, cell=(number, 0))
@@ -214,18 +214,18 @@ def test_other_notes_begin_no_activity(kind: NoteKind) -> None:
         ("acts", {"action": 0, "cell": (0, 0)}, ""),
     ],
 )
-def test_a_note_gives_the_part_that_is_under_way(kind: NoteKind, facts: dict[str, Fact], detail: str) -> None:
+def test_note_gives_the_detail_of_the_current_activity(kind: NoteKind, facts: dict[str, Fact], detail: str) -> None:
     assert detail_of(kind, facts) == detail
 
 
-def test_an_action_is_seen_with_what_it_did() -> None:
+def test_done_action_is_shown_with_its_cell_block_and_duration() -> None:
     facts: dict[str, Fact] = {"cell": (2, 3), "placed": (2, 4), "seconds": 0.4}
 
     assert action_seen(Action.RD, facts) == ActionSeen("R+D", (2, 3), (2, 4), 0.4)
     assert action_seen(Action.R, {**facts, "placed": None}).placed is None
 
 
-def test_a_reading_is_seen_with_the_block_looked_at() -> None:
+def test_reading_is_shown_with_pose_and_looked_at_block_or_with_its_problem() -> None:
     facts: dict[str, Fact] = {
         "xyz": (1.5, 64.0, -2.5),
         "yaw": 0.0,

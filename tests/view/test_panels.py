@@ -45,7 +45,7 @@ def test_an_instruction_is_wrapped_and_not_cut_off() -> None:
     assert narrow[-2:] == ["Switch to the game", "now with Alt+Tab."]
 
 
-def test_why_the_screen_can_not_be_read_is_said() -> None:
+def test_side_panel_says_why_the_screen_cannot_be_read() -> None:
     blind = LIVE.model_copy(update={"reading": ReadingSeen(problem="the chat covers the line XYZ")})
 
     assert "the chat covers the line XYZ" in side_panel(blind, 60, 30).plain

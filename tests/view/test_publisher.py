@@ -71,7 +71,7 @@ def test_a_run_is_published_at_once_and_while_it_goes_on(tmp_path: Path) -> None
     [("the game\nis gone", "the game is gone"), ("go on with r\udce9", "go on with r?")],
     ids=["in one line", "a path that is no text, with question marks"],
 )
-def test_how_a_run_failed_is_published(error: str, said: str, tmp_path: Path) -> None:
+def test_error_of_a_failed_run_is_published_in_one_line(error: str, said: str, tmp_path: Path) -> None:
     def fail() -> None:
         with a_publisher(tmp_path):
             raise LiveError(error)
@@ -103,14 +103,14 @@ def test_a_run_waits_while_a_person_wants_a_pause(tmp_path: Path) -> None:
         until(lambda: not status_now(tmp_path).paused)
 
 
-def test_a_pause_ends_with_the_run(tmp_path: Path) -> None:
+def test_paused_run_waits_no_longer_once_it_is_over(tmp_path: Path) -> None:
     with a_publisher(tmp_path) as publisher:
         ask_pause(tmp_path)
         until(lambda: publisher.is_paused)
         publisher.wait_while_paused(lambda: True)
 
 
-def test_a_stop_ends_a_pause_and_is_done_once(tmp_path: Path) -> None:
+def test_stop_request_ends_a_pause_and_stops_the_run_once(tmp_path: Path) -> None:
     stops: list[str] = []
     lines = Counted()
     with a_publisher(tmp_path, lambda: stops.append("stop"), lines) as publisher:
@@ -151,12 +151,12 @@ def test_a_question_waits_for_its_own_answer(tmp_path: Path) -> None:
     assert answers == [False, True]
 
 
-def test_a_question_that_nobody_sees_any_more_has_no_answer(tmp_path: Path) -> None:
+def test_question_gets_no_answer_once_nobody_sees_it(tmp_path: Path) -> None:
     with a_publisher(tmp_path) as publisher:
         assert publisher.answer("Clear it?", lambda: False) is None
 
 
-def test_a_folder_that_is_gone_costs_the_view_and_not_the_run(tmp_path: Path) -> None:
+def test_run_goes_on_if_its_folder_is_deleted(tmp_path: Path) -> None:
     lines = Counted()
     with a_publisher(tmp_path / "run", lines=lines) as publisher:
         shutil.rmtree(tmp_path / "run", ignore_errors=True)  # Windows keeps the lock, which is open
@@ -165,7 +165,7 @@ def test_a_folder_that_is_gone_costs_the_view_and_not_the_run(tmp_path: Path) ->
         assert publisher._thread.is_alive()
 
 
-def test_a_status_that_can_not_be_written_costs_the_view_and_not_the_run(tmp_path: Path) -> None:
+def test_run_goes_on_and_hears_a_stop_if_its_status_cannot_be_written(tmp_path: Path) -> None:
     stops: list[str] = []
     lines = Counted()
     with a_publisher(tmp_path, lambda: stops.append("stop"), lines) as publisher:
@@ -178,7 +178,7 @@ def test_a_status_that_can_not_be_written_costs_the_view_and_not_the_run(tmp_pat
     assert status_now(tmp_path).ended == "finished"
 
 
-def test_a_folder_that_can_not_be_made_costs_the_view_and_not_the_run(tmp_path: Path) -> None:
+def test_run_goes_on_if_the_folder_of_its_view_cannot_be_made(tmp_path: Path) -> None:
     (tmp_path / "file").write_text("")
 
     with a_publisher(tmp_path / "file") as publisher:
@@ -193,7 +193,7 @@ def test_a_publisher_that_was_never_entered_publishes_nothing(tmp_path: Path) ->
     assert list(tmp_path.iterdir()) == []
 
 
-def test_stopping_is_what_ctrl_c_does() -> None:
+def test_press_ctrl_c_raises_sigint() -> None:
     heard: list[int] = []
     before = signal.signal(signal.SIGINT, lambda number, _: heard.append(number))
     try:

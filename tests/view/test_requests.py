@@ -44,7 +44,7 @@ def test_a_new_run_has_no_requests(run: Path) -> None:
     assert requests.answer_to(1) is None
 
 
-def test_what_was_asked_of_an_earlier_run_is_forgotten(run: Path) -> None:
+def test_requests_to_an_earlier_run_are_forgotten(run: Path) -> None:
     ask_pause(run)
     ask_to_stop(run)
     give_answer(run, YesOrNo(number=1, is_yes=True))
@@ -56,7 +56,7 @@ def test_what_was_asked_of_an_earlier_run_is_forgotten(run: Path) -> None:
     assert requests.answer_to(1) is None
 
 
-def test_a_pause_is_asked_until_somebody_asks_to_go_on(run: Path) -> None:
+def test_pause_lasts_until_somebody_asks_to_go_on(run: Path) -> None:
     requests = Requests(run)
     ask_pause(run)
     assert requests.is_pause_asked()
@@ -65,7 +65,7 @@ def test_a_pause_is_asked_until_somebody_asks_to_go_on(run: Path) -> None:
     ask_to_go_on(run)
 
 
-def test_a_pause_that_nobody_renews_is_over(run: Path) -> None:
+def test_pause_ends_if_nobody_renews_it(run: Path) -> None:
     clock = Clock()
     requests = Requests(run, clock)
     ask_pause(run)
@@ -97,7 +97,7 @@ def test_a_stop_is_heard_beside_any_other_request(run: Path) -> None:
     assert requests.is_stop_asked()
 
 
-def test_an_answer_is_to_its_question_alone(run: Path) -> None:
+def test_answer_counts_only_for_its_own_question(run: Path) -> None:
     requests = Requests(run)
     give_answer(run, YesOrNo(number=7, is_yes=False))
 

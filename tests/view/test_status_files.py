@@ -80,7 +80,7 @@ def test_the_last_status_is_always_kept(tmp_path: Path) -> None:
     assert [status.ended for status in history_of(tmp_path)] == [None, "finished"]
 
 
-def test_a_long_run_is_kept_from_its_first_moment_to_its_last_and_coarser(tmp_path: Path) -> None:
+def test_history_of_a_long_run_is_thinned_but_reaches_from_first_to_last(tmp_path: Path) -> None:
     files = StatusFiles(tmp_path)
     for number in range(3 * MOST_KEPT):
         files.write(at(float(number)))
@@ -100,7 +100,7 @@ def test_a_resumed_run_goes_on_with_its_history(tmp_path: Path) -> None:
     assert [status.at for status in history_of(tmp_path)] == [1.0, 50.0]
 
 
-def test_a_line_that_a_kill_cut_off_is_left_out(tmp_path: Path) -> None:
+def test_history_line_cut_off_by_a_kill_is_left_out(tmp_path: Path) -> None:
     StatusFiles(tmp_path).write(at(1.0))
     path = tmp_path / FOLDER / HISTORY
     path.write_text(path.read_text("utf-8") + '{"at": 2.0, "wha', "utf-8")
@@ -133,19 +133,19 @@ def test_a_status_that_is_damaged_or_of_another_version_is_refused_in_a_line(
         status_now(tmp_path)
 
 
-def test_a_folder_without_one_says_so(tmp_path: Path) -> None:
+def test_folder_without_a_status_is_refused_and_has_an_empty_history(tmp_path: Path) -> None:
     with pytest.raises(RunError, match="there is nothing to view"):
         status_now(tmp_path)
     assert history_of(tmp_path) == []
 
 
-def test_the_format_is_written(tmp_path: Path) -> None:
+def test_status_file_names_its_format(tmp_path: Path) -> None:
     StatusFiles(tmp_path).write(LIVE)
 
     assert json.loads((tmp_path / FOLDER / NOW).read_text("utf-8"))["format"] == FORMAT
 
 
-def test_only_what_was_published_is_removed(tmp_path: Path) -> None:
+def test_remove_status_removes_only_published_files(tmp_path: Path) -> None:
     StatusFiles(tmp_path).write(LIVE)
     remove_status(tmp_path)
     assert list(tmp_path.iterdir()) == []
@@ -157,7 +157,7 @@ def test_only_what_was_published_is_removed(tmp_path: Path) -> None:
 
 
 @given(st.text(), st.text(), st.floats(allow_nan=False), st.floats(allow_nan=False))
-def test_any_words_and_numbers_are_read_back(doing: str, title: str, since: float, score: float) -> None:
+def test_status_with_any_text_and_numbers_is_read_back(doing: str, title: str, since: float, score: float) -> None:
     learning = Learning(score=score, best=-score, scores=(score,))
     status = Status(format=FORMAT, what="train", title=title, doing=doing, since=since, learning=learning)
 
@@ -167,7 +167,7 @@ def test_any_words_and_numbers_are_read_back(doing: str, title: str, since: floa
         assert list(history_of(Path(folder))) == [status]
 
 
-def test_bytes_that_are_no_text_are_written_as_question_marks() -> None:
+def test_bytes_that_are_not_text_become_question_marks() -> None:
     assert Status(format=FORMAT, what="train", title="r\udce9").title == "r?"
 
 
@@ -197,5 +197,5 @@ def test_the_scrubbers_line_marks_its_place_and_the_times_of_its_ends() -> None:
     assert Scrubber(STATUSES, 40).line(29).plain == "00:00:00 ━━━━━━━━━━● 00:00:40"
 
 
-def test_a_history_of_one_moment_has_a_line_too() -> None:
+def test_scrubber_draws_a_line_for_a_history_of_one_moment() -> None:
     assert Scrubber(STATUSES[:1], 0).line(25).plain == "00:00:00 ●────── 00:00:00"

@@ -115,7 +115,7 @@ def test_a_closed_view_leaves_the_run_going_with_its_plain_lines(opened: Opens) 
 
 
 @pytest.mark.slow
-def test_a_view_that_is_killed_costs_nothing_but_itself(opened: Opens) -> None:
+def test_run_goes_on_unpaused_if_its_view_is_killed(opened: Opens) -> None:
     terminal = viewed_training(opened)
     terminal.press("p")
     terminal.until("paused")
@@ -163,7 +163,7 @@ def test_a_mistake_is_one_line_with_a_view_too(opened: Opens, tmp_path: Path) ->
 
 
 @pytest.mark.slow
-def test_an_episode_and_a_build_are_viewed(opened: Opens, tmp_path: Path) -> None:
+def test_play_and_build_can_be_viewed(opened: Opens, tmp_path: Path) -> None:
     assert run("train", "--preset", "model-based", "--episodes", "3", "--out", tmp_path / "run") == 0
     for words, title in ((("play", "run"), "play: line, trial 0"), (("build", "line"), "build: line")):
         terminal = opened(*words, "--view", columns=40, lines=24)
@@ -173,7 +173,7 @@ def test_an_episode_and_a_build_are_viewed(opened: Opens, tmp_path: Path) -> Non
 
 
 @pytest.mark.slow
-def test_another_terminal_views_a_run_and_asks_it(opened: Opens) -> None:
+def test_another_terminal_views_a_run_resumes_it_and_stops_it(opened: Opens) -> None:
     training, view = paused_by_another(opened)
     view.press("p")
     view.until("trains in the simulator", training)
@@ -192,7 +192,7 @@ def test_another_terminal_views_a_run_and_asks_it(opened: Opens) -> None:
 
 
 @pytest.mark.slow
-def test_a_pause_ends_with_the_terminal_of_its_view(opened: Opens, tmp_path: Path) -> None:
+def test_pause_ends_if_the_view_that_asked_for_it_is_killed(opened: Opens, tmp_path: Path) -> None:
     training, view = paused_by_another(opened)
     view.process.kill()
     end = time.monotonic() + 60
@@ -252,7 +252,7 @@ def test_a_view_that_can_not_be_opened_leaves_the_terminal_as_it_was(
     ]
 
 
-def test_a_start_that_fails_removes_nothing_of_yours(tmp_path: Path) -> None:
+def test_failed_start_leaves_no_folder_and_removes_no_file_of_the_users(tmp_path: Path) -> None:
     live = ("train", "--backend", "live", "--profile", str(tmp_path / "none.toml"), "--out", tmp_path / "run")
     assert run(*live) == 2
     assert not (tmp_path / "run").exists()

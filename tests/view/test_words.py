@@ -13,7 +13,7 @@ def test_a_time_span_has_its_two_largest_units(seconds: float, words: str) -> No
     assert lasting(seconds) == words
 
 
-def test_the_status_line_says_what_is_done_and_for_how_long() -> None:
+def test_status_line_gives_the_activity_and_its_duration() -> None:
     assert status_words(shown(after=2.0)) == (
         "plays",
         "moves back and places a block (B+D), from (1, 2): holds s for 4 ticks, for 2 s",
@@ -24,7 +24,7 @@ def test_an_action_that_takes_too_long_is_stuck() -> None:
     assert status_words(shown(after=LONG_S))[0] == "stuck"
 
 
-def test_a_run_of_which_nothing_is_heard_says_so() -> None:
+def test_status_line_says_so_if_nothing_is_heard_of_the_run() -> None:
     silent = StatusShown(LIVE, LIVE.at + LONG_S)
 
     assert status_words(silent) == (
@@ -79,7 +79,7 @@ def test_the_status_line_says_that_a_run_asks_stops_pauses_or_has_ended(
     assert (found, part in sentence) == (word, True)
 
 
-def test_a_run_lives_while_it_is_published_or_was_just_now_and_has_not_ended() -> None:
+def test_run_counts_as_alive_while_it_is_published_or_was_just_now_and_has_not_ended() -> None:
     ended = LIVE.model_copy(update={"ended": "finished"})
 
     assert life_of(LIVE, True, LIVE.at + 60) == "runs"
@@ -88,7 +88,7 @@ def test_a_run_lives_while_it_is_published_or_was_just_now_and_has_not_ended() -
     assert life_of(ended, True, LIVE.at) == life_of(ended, False, LIVE.at + 60) == "ended"
 
 
-def test_how_far_a_training_in_a_running_game_is() -> None:
+def test_progress_of_one_trial_gives_episodes_scores_known_cells_and_time_left() -> None:
     assert learning_lines(LEARNING) == [
         "12 of at most 41 episodes",
         "last score 18, best 24, of 26",
@@ -97,7 +97,7 @@ def test_how_far_a_training_in_a_running_game_is() -> None:
     ]
 
 
-def test_how_far_many_trials_are() -> None:
+def test_progress_of_many_trials_gives_episodes_trials_at_the_optimum_and_mean_score() -> None:
     learning = Learning(trials=90, episodes=1234, episodes_at_most=18000, score=4.25, optimum=26, at_optimum=3)
 
     assert learning_lines(learning) == [

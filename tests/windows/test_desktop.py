@@ -66,11 +66,11 @@ def report(windows: Session) -> dict[str, Any]:
     return found
 
 
-def test_each_place_reaches_the_window_as_the_key_of_that_place(windows: Session) -> None:
+def test_key_of_each_place_reaches_the_window_as_the_key_of_that_place(windows: Session) -> None:
     assert report_of(windows, WINDOW_PROBE, "keys", json.dumps(list(PLACES))) == expected_events()
 
 
-def test_a_command_reaches_the_window_to_the_letter(windows: Session) -> None:
+def test_typed_command_reaches_the_window_letter_for_letter(windows: Session) -> None:
     assert report_of(windows, WINDOW_PROBE, "text", json.dumps(COMMAND)) == {"text": COMMAND}
 
 
@@ -86,13 +86,13 @@ def other_layout(request: pytest.FixtureRequest, windows: Session) -> Iterator[N
 
 
 @pytest.mark.usefixtures("other_layout")
-def test_on_other_layouts_each_place_is_the_same_and_text_is_to_the_letter(windows: Session) -> None:
+def test_on_other_layouts_keys_reach_the_window_by_place_and_text_letter_for_letter(windows: Session) -> None:
     assert report_of(windows, WINDOW_PROBE, "keys", json.dumps(list(PLACES))) == expected_events()
     assert report_of(windows, WINDOW_PROBE, "text", json.dumps(COMMAND)) == {"text": COMMAND}
 
 
 @pytest.mark.usefixtures("other_layout")
-def test_to_1_12_a_key_of_another_layout_is_pressed_where_its_virtual_key_is_or_refused(windows: Session) -> None:
+def test_on_other_layouts_1_12_gets_a_key_by_its_virtual_key_or_the_key_is_refused(windows: Session) -> None:
     report = report_of(windows, WINDOW_PROBE, "profile keys", json.dumps(sorted(VIRTUAL_KEYS)), *virtual_keys(windows))
     arrived = {key for key, came in report["keys"].items() if isinstance(came, list)}
     assert {"w", "s", "a", "d", "t"} <= arrived or "types no w, s, a, d, t" in report["refused"]
@@ -105,7 +105,7 @@ def test_to_1_12_a_key_of_another_layout_is_pressed_where_its_virtual_key_is_or_
 
 
 @pytest.mark.parametrize("layout", ["us", "fr"])
-def test_a_window_of_sdl_3_gets_keys_by_place_text_to_the_letter_and_clicks_without_motion(
+def test_sdl_3_window_gets_keys_by_place_text_letter_for_letter_and_clicks_without_motion(
     layout: str, windows: Session
 ) -> None:
     program = sdl_3(windows)
@@ -124,7 +124,7 @@ def test_a_window_of_sdl_3_gets_keys_by_place_text_to_the_letter_and_clicks_with
         assert focus == {"in front": [[True, True], [False, False], [True, True]], "keys": []}
 
 
-def test_clicks_move_nothing(windows: Session) -> None:
+def test_clicks_do_not_move_the_cursor(windows: Session) -> None:
     clicks = report_of(windows, WINDOW_PROBE, "clicks")
     assert clicks["has raw motion"]
     assert clicks["cursor"] == 0
@@ -138,11 +138,11 @@ def test_the_panic_key_and_hotkeys_are_heard(windows: Session) -> None:
     }
 
 
-def test_a_key_is_heard_that_is_pressed_as_soon_as_a_listener_is_open(windows: Session) -> None:
+def test_key_pressed_as_soon_as_a_listener_is_open_is_heard(windows: Session) -> None:
     assert report_of(windows, WINDOW_PROBE, "at once") == {"heard": 50}
 
 
-def test_the_window_is_where_and_what_it_is(report: dict[str, Any]) -> None:
+def test_window_has_the_size_title_and_program_that_glfw_gives_it(report: dict[str, Any]) -> None:
     place = report["place"]
     assert (place["size"], place["title"], place["is in front"]) == (SIZE, TITLE, True)
     assert place["of GLFW"]["size"] == SIZE
@@ -175,14 +175,14 @@ def test_the_free_cursor_goes_where_it_is_sent_and_every_button_arrives(report: 
     assert report["pointer"]["buttons"] == [[0, 1], [0, 0], [1, 1], [1, 0], [2, 1], [2, 0]]
 
 
-def test_the_clipboard_holds_what_was_written(report: dict[str, Any]) -> None:
+def test_clipboard_returns_the_text_that_was_written(report: dict[str, Any]) -> None:
     assert report["clipboard"]["read"] == "/execute in minecraft:overworld run tp @s 0.5 64 é"
 
 
-def test_a_mouse_pushed_into_any_corner_stops(report: dict[str, Any]) -> None:
+def test_mouse_pushed_into_any_corner_sets_off_the_panic_switch(report: dict[str, Any]) -> None:
     assert len(report["corner"]) == 4
     assert all(len(said) == 1 and "corner" in said[0] for said in report["corner"]), report["corner"]
 
 
-def test_a_window_partly_off_the_screen_is_an_error_and_no_black_picture(report: dict[str, Any]) -> None:
+def test_window_partly_off_the_screen_is_an_error_that_says_to_move_it(report: dict[str, Any]) -> None:
     assert "move it" in report["edge"]["error"]

@@ -80,7 +80,7 @@ def calibrated(rehearsal: Rehearsal) -> Rehearsal:
     return rehearsal
 
 
-def test_a_picture_is_read_as_its_client_says_it_is(windows: Session, tmp_path: Path) -> None:
+def test_picture_of_the_debug_screen_is_read_with_the_clients_position(windows: Session, tmp_path: Path) -> None:
     client = VirtualClient(capture_latency_s=(0.0, 0.0))
     client.clock.sleep(1.0)
     picture, font = tmp_path / "f3.png", tmp_path / "font.png"
@@ -92,7 +92,7 @@ def test_a_picture_is_read_as_its_client_says_it_is(windows: Session, tmp_path: 
     assert json.loads(said)["xyz"] == pytest.approx(client.realm.player.feet, abs=0.001)
 
 
-def test_without_a_profile_the_doctor_sees_the_window_and_says_what_to_do(rehearsal: Rehearsal) -> None:
+def test_doctor_without_a_profile_passes_the_windows_rows_and_skips_the_profiles(rehearsal: Rehearsal) -> None:
     code, said = rehearsal.command("doctor", "--json", "--profile", rehearsal.profile, timeout_s=90)
     assert code == 1
     rows = {check["name"]: check for check in json.loads(said[said.index("{") :])["checks"]}
@@ -114,7 +114,7 @@ def test_a_line_is_built_block_by_block_and_no_key_stays_down(calibrated: Rehear
     assert calibrated.truth.now()["keys_down"] == []
 
 
-def test_once_calibrated_every_row_that_can_be_seen_passes(calibrated: Rehearsal) -> None:
+def test_doctor_with_a_calibrated_profile_passes_profile_font_screen_and_input(calibrated: Rehearsal) -> None:
     code, said = calibrated.command("doctor", "--json", "--profile", calibrated.profile, timeout_s=120)
     rows = {check["name"]: check for check in json.loads(said[said.index("{") :])["checks"]}
     assert code == 0, said
@@ -122,7 +122,7 @@ def test_once_calibrated_every_row_that_can_be_seen_passes(calibrated: Rehearsal
         assert rows[name]["status"] == "pass", rows[name]
 
 
-def test_its_game_is_served_to_a_learner_on_this_system_over_tls(calibrated: Rehearsal, tmp_path: Path) -> None:
+def test_game_on_windows_is_served_to_a_learner_on_this_system_over_tls(calibrated: Rehearsal, tmp_path: Path) -> None:
     design, run = tmp_path / "design.toml", tmp_path / "run"
     design.write_text(scenario_text(DOT), "utf-8")
     pc, learner = make_keys(tmp_path / "keys", ["pc", "learner"])

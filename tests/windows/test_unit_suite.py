@@ -40,13 +40,13 @@ def results(windows: Session, tmp_path_factory: pytest.TempPathFactory) -> Resul
     return Results(code, printed, report)
 
 
-def test_the_unit_tests_of_what_differs_on_windows_run_to_their_end(results: Results) -> None:
+def test_unit_tests_under_wine_run_to_their_end(results: Results) -> None:
     assert results.code in (0, 1), results.printed[-4000:]
     assert sum(said is None for _, said in results.outcomes) >= FEWEST
 
 
 @pytest.mark.parametrize("place", WHERE_WINDOWS_DIFFERS)
-def test_the_unit_tests_pass_on_windows(results: Results, place: str) -> None:
+def test_unit_tests_of_each_place_pass_under_wine(results: Results, place: str) -> None:
     outcomes = results.of(place)
     assert outcomes
     assert not [said for said in outcomes if said is not None]

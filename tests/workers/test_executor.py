@@ -60,11 +60,11 @@ def test_every_report_and_every_job_end_is_passed_on() -> None:
     assert executor.stopped == 0
 
 
-def test_without_jobs_there_is_nothing_to_wait_for() -> None:
+def test_train_jobs_without_jobs_returns() -> None:
     train_jobs(MadeExecutor(finished), [], never, lambda _: None)
 
 
-def test_a_job_that_fails_stops_the_others_once_and_is_named_when_they_are_saved() -> None:
+def test_failed_job_stops_the_others_once_and_is_reported_after_they_are_saved() -> None:
     def act(executor: MadeExecutor) -> None:
         if executor.looks == 1:
             executor.futures[0].set_result(JobEnded("a", finished=False, failed="the disk is full"))
@@ -77,7 +77,7 @@ def test_a_job_that_fails_stops_the_others_once_and_is_named_when_they_are_saved
     assert executor.stopped == 1
 
 
-def test_a_failure_is_named_before_a_loss() -> None:
+def test_failed_job_is_reported_rather_than_a_lost_process() -> None:
     def act(executor: MadeExecutor) -> None:
         if executor.looks == 1:
             executor.futures[0].set_exception(RunError("a process was killed"))
@@ -88,7 +88,7 @@ def test_a_failure_is_named_before_a_loss() -> None:
         train_jobs(MadeExecutor(act), JOBS, never, lambda _: None)
 
 
-def test_a_loss_after_a_stop_was_asked_for_is_no_error() -> None:
+def test_process_lost_after_a_stop_request_is_not_an_error() -> None:
     def act(executor: MadeExecutor) -> None:
         if executor.looks == 4:
             executor.futures[0].set_exception(RunError("a process was killed"))

@@ -183,7 +183,7 @@ def test_a_process_that_is_free_takes_the_next_job_while_another_trains(workers:
     assert sorted(name for name, _ in workers.trained) == ["a", "b", "c", "long"]
 
 
-def test_every_message_of_a_process_is_passed_on_and_none_now_and_then(workers: Workers) -> None:
+def test_every_message_of_a_process_is_passed_on_and_now_and_then_none(workers: Workers) -> None:
     report = JobReport("a", (3,), (None,), 7)
 
     def act(pipe: Connection) -> Ending:
@@ -198,7 +198,7 @@ def test_every_message_of_a_process_is_passed_on_and_none_now_and_then(workers: 
     assert None in heard
 
 
-def test_a_job_that_fails_ends_it_and_the_others_are_saved(workers: Workers) -> None:
+def test_failed_job_ends_the_training_and_the_other_jobs_are_saved(workers: Workers) -> None:
     failed = JobEnded("a", finished=False, failed="the disk is full")
     workers.acts = {"a": once_it_trains(workers, "b", failed), "b": until_asked("b")}
     with pytest.raises(RunError, match=r"^the disk is full$"):
@@ -217,7 +217,9 @@ def test_a_job_that_fails_ends_it_and_the_others_are_saved(workers: Workers) -> 
         (JobEnded("a", finished=False), "a training process was asked to stop"),
     ],
 )
-def test_a_process_that_is_lost_ends_it_and_the_others_are_saved(ending: Ending, says: str, workers: Workers) -> None:
+def test_lost_process_ends_the_training_with_its_reason_and_no_further_job_is_begun(
+    ending: Ending, says: str, workers: Workers
+) -> None:
     if sys.platform == "win32" and isinstance(ending, int) and ending < 0:
         pytest.skip("Windows has no signals for other processes")
     workers.acts = {"a": once_it_trains(workers, "b", ending), "b": until_asked("b")}
@@ -226,7 +228,7 @@ def test_a_process_that_is_lost_ends_it_and_the_others_are_saved(ending: Ending,
     assert {name for name, _ in workers.trained} == {"a", "b"}
 
 
-def test_a_failure_is_reported_before_a_loss(workers: Workers) -> None:
+def test_failed_job_is_reported_rather_than_a_lost_process(workers: Workers) -> None:
     def fail_when_asked(pipe: Connection) -> Ending:
         pipe.poll(10)
         return JobEnded("b", finished=False, failed="the disk is full")
@@ -236,7 +238,7 @@ def test_a_failure_is_reported_before_a_loss(workers: Workers) -> None:
         train(2, "a", "b")
 
 
-def test_stopping_saves_all_jobs_and_is_no_error(workers: Workers) -> None:
+def test_stop_request_saves_the_jobs_in_training_and_is_not_an_error(workers: Workers) -> None:
     stopped = threading.Event()
 
     def interrupted(pipe: Connection) -> Ending:
@@ -248,7 +250,7 @@ def test_stopping_saves_all_jobs_and_is_no_error(workers: Workers) -> None:
     assert sorted(heard, key=lambda ended: ended.job) == [JobEnded(name, finished=False) for name in "ab"]
 
 
-def test_a_process_that_is_lost_while_all_are_asked_to_stop_is_no_error(workers: Workers) -> None:
+def test_process_lost_during_a_stop_is_not_an_error(workers: Workers) -> None:
     stopped = threading.Event()
 
     def stopped_with_its_parent(_: Connection) -> Ending:
@@ -280,7 +282,7 @@ def test_a_process_that_does_not_end_is_killed(workers: Workers, monkeypatch: py
     assert all(process.exitcode is not None for process in workers.processes)
 
 
-def test_they_start_with_one_thread_each_and_never_get_ctrl_c(
+def test_processes_start_with_one_thread_each_and_with_ctrl_c_blocked(
     workers: Workers, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     first, second, _ = ONE_THREAD_EACH
@@ -350,14 +352,18 @@ def test_jobs_are_trained_one_after_the_other(pipe: tuple[Connection, Connection
     assert one.runs == two.runs
 
 
-def test_asked_to_stop_it_saves_and_ends(pipe: tuple[Connection, Connection], tmp_path: Path) -> None:
+def test_process_that_is_asked_to_stop_saves_a_checkpoint_and_ends(
+    pipe: tuple[Connection, Connection], tmp_path: Path
+) -> None:
     report, ended = asked_to_stop(pipe, tmp_path)
     assert isinstance(report, JobReport)
     assert ended == JobEnded(SHORT_JOB.name, finished=False)
     assert (tmp_path / "checkpoint").exists()
 
 
-def test_without_its_parent_it_saves_and_ends(pipe: tuple[Connection, Connection], tmp_path: Path) -> None:
+def test_process_whose_parent_is_gone_saves_a_checkpoint_and_ends(
+    pipe: tuple[Connection, Connection], tmp_path: Path
+) -> None:
     ours, theirs = pipe
     ours.send((SHORT_JOB, tmp_path))
     ours.close()
@@ -366,7 +372,7 @@ def test_without_its_parent_it_saves_and_ends(pipe: tuple[Connection, Connection
     assert not (tmp_path / OUTCOME).exists()
 
 
-def test_a_job_waits_until_a_process_without_its_parent_has_saved_it(
+def test_job_waits_until_another_process_has_released_its_folder(
     pipe: tuple[Connection, Connection], tmp_path: Path
 ) -> None:
     with ExitStack() as other:
@@ -388,7 +394,7 @@ def test_a_job_whose_folder_another_process_holds_is_reported(
     assert ended.failed.startswith(f"{tmp_path}: process {os.getpid()} is writing there")
 
 
-def test_ctrl_c_is_left_to_the_parent(pipe: tuple[Connection, Connection], tmp_path: Path) -> None:
+def test_process_ignores_ctrl_c(pipe: tuple[Connection, Connection], tmp_path: Path) -> None:
     ours, theirs = pipe
     ours.send(None)
     serve_jobs(theirs)
@@ -396,7 +402,9 @@ def test_ctrl_c_is_left_to_the_parent(pipe: tuple[Connection, Connection], tmp_p
     assert list(tmp_path.iterdir()) == []
 
 
-def test_a_checkpoint_of_something_else_is_reported(pipe: tuple[Connection, Connection], tmp_path: Path) -> None:
+def test_checkpoint_of_another_scenario_is_reported_and_kept(
+    pipe: tuple[Connection, Connection], tmp_path: Path
+) -> None:
     asked_to_stop(pipe, tmp_path, one_job("nested", [DOT], 3))
     saved = {path.name: path.read_bytes() for path in (tmp_path / "checkpoint").iterdir()}
     (ended,) = asked_to_stop(pipe, tmp_path)
@@ -405,7 +413,7 @@ def test_a_checkpoint_of_something_else_is_reported(pipe: tuple[Connection, Conn
     assert {path.name: path.read_bytes() for path in (tmp_path / "checkpoint").iterdir()} == saved
 
 
-def test_a_job_that_is_soon_over_is_reported_at_its_beginning_and_at_its_end(
+def test_short_job_is_reported_at_its_beginning_and_at_its_end(
     pipe: tuple[Connection, Connection], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("mc_nested.workers.processes.REPORT_EVERY_S", 1e9)

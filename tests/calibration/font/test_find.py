@@ -239,7 +239,7 @@ def grey_with(share: float, shade: int) -> Frame:
     return frame
 
 
-def test_error_names_force_unicode_font_even_if_a_font_was_painted() -> None:
+def test_error_names_force_unicode_font_whatever_the_picture_shows() -> None:
     error = nothing_fits([painted(2)], [MINE], {"forceUnicodeFont": "true"})
     assert isinstance(error, FontError)
     assert "Force Unicode Font is on" in str(error)

@@ -18,12 +18,12 @@ from sim.client.game.f3_text import LAYOUTS
 from sim.client.settings import ClientSettings, gui_scale
 
 
-def test_the_same_seed_gives_the_same_clients_and_another_one_others() -> None:
+def test_same_seed_gives_the_same_clients_and_another_seed_gives_others() -> None:
     assert list(clients(10, 3)) == list(clients(10, 3))
     assert list(clients(10, 3)) != list(clients(10, 4))
 
 
-def test_fifty_clients_are_of_every_version_and_every_layout_that_can_be_read() -> None:
+def test_fifty_clients_cover_every_version_evenly_and_every_readable_layout() -> None:
     fifty = list(clients(50, 0))
     assert {client.version for client in fifty} == set(VERSIONS)
     counts = Counter(client.version for client in fifty)
@@ -31,7 +31,7 @@ def test_fifty_clients_are_of_every_version_and_every_layout_that_can_be_read() 
     assert {Edition(version).layout for version in VERSIONS} == set(LAYOUTS) - {"standin"}
 
 
-def test_they_differ_in_all_that_a_calibration_measures() -> None:
+def test_clients_differ_in_everything_that_a_calibration_measures() -> None:
     fifty = list(clients(50, 0))
     for what in ("size", "fps", "input_latency_s", "capture_latency_s", "feet", "yaw"):
         assert len({getattr(client, what) for client in fifty}) == 50
@@ -41,18 +41,18 @@ def test_they_differ_in_all_that_a_calibration_measures() -> None:
     assert len({client.speed for client in fifty}) > 2
 
 
-def test_their_windows_are_wide_enough_for_the_debug_screens_two_columns() -> None:
+def test_windows_of_clients_are_wide_enough_for_the_debug_screens_two_columns() -> None:
     assert all(client.size[0] >= NARROWEST * gui_scale(client.size, client.scale or 0) for client in clients(200, 1))
 
 
-def test_every_version_is_in_seven_windows_of_which_the_random_ones_are_as_wide_as_the_doctor_asks() -> None:
+def test_every_version_gets_all_fixed_sizes_and_random_ones_as_wide_as_the_doctor_asks() -> None:
     each = list(every_version(0))
     assert Counter(client.version for client in each) == dict.fromkeys(VERSIONS, len(SIZES) + RANDOM_SIZES)
     covered = [client for client in each if client.size not in SIZES and not draws_text_over_menus(client.version)]
     assert all(client.size[0] >= NARROWEST * gui_scale(client.size, 0) for client in covered)
 
 
-def test_a_profile_of_the_games_own_walk_is_not_off_it_and_another_one_is() -> None:
+def test_walk_rms_is_zero_for_the_games_own_walk_and_larger_for_a_faster_one() -> None:
     plain = Profile(walk=WalkTable(covered=walk_response(8)))
     assert walk_rms(plain, ClientSettings()) == pytest.approx(0, abs=1e-9)
     # A fifth more speed covers a fifth more: of one tick 0.210 blocks, of two 0.427.
@@ -60,7 +60,7 @@ def test_a_profile_of_the_games_own_walk_is_not_off_it_and_another_one_is() -> N
     assert longer == pytest.approx(0.2 * 0.587, rel=0.02)
 
 
-def test_a_point_is_as_far_off_as_it_is_from_its_buttons_middle() -> None:
+def test_click_error_is_the_distance_from_the_buttons_middle() -> None:
     client = VirtualClient(size=(854, 480), scale=2)
     # Back to Game, from 1.19.4 on: its middle is at x = 427 / 2 + 102 - 102, y = (240 - 166) // 4 + 50 + 10 = 78.
     exact = ((213 - 102 + 102) * 2 / 854, 78 * 2 / 480)
@@ -71,7 +71,7 @@ def test_a_point_is_as_far_off_as_it_is_from_its_buttons_middle() -> None:
     ]
 
 
-def test_the_report_counts_what_went_wrong() -> None:
+def test_report_counts_wrong_cells_wrong_blocks_and_problems() -> None:
     good = ClientResult(
         ClientSettings(), game_s=70.0, walk_rms=0.001, click_errors=(0.5, 1.5), play=PlayCounts(actions=200)
     )

@@ -42,7 +42,7 @@ class TwoClocks:
     ("takes_s", "reset_s", "done_s", "waited_s", "cut_short"),
     [(1.0, 2.0, 1.0, 0.0, 0), (2.5, 2.0, 2.5, 0.5, 0), (9.0, 2.0, 3.0, 1.0, 1), (9.0, 0.0, 1.0, 1.0, 1)],
 )
-def test_practice_gets_the_resets_seconds_and_one_more_and_the_game_waits_for_what_exceeds_the_reset(
+def test_practice_gets_the_reset_time_and_one_second_and_the_game_waits_for_the_excess(
     takes_s: float, reset_s: float, done_s: float, waited_s: float, cut_short: int
 ) -> None:
     clocks = TwoClocks()
@@ -64,14 +64,14 @@ def test_a_training_without_mishaps_gets_to_the_optimum_and_nothing_is_wrong() -
 
 
 @pytest.mark.slow
-def test_what_spoiled_episodes_taught_is_not_in_the_experience() -> None:
+def test_training_with_mishaps_learns_nothing_from_spoiled_episodes() -> None:
     trial = train(LINE, 2, load_preset("model-based"), 0.03)
     assert trial.spoiled > 0
     assert trial.mishaps > 0
     assert trial.is_right
 
 
-def test_what_was_learnt_must_be_the_last_episodes_transitions_and_all_of_them() -> None:
+def test_wrongly_learnt_counts_transitions_that_differ_from_the_last_episodes() -> None:
     one, two = (0, 0, 7, 1, 0, 1, 7), (0, 1, 7, 1, 0, 2, 7)
     later: list[list[tuple[int, ...]]] = [[two]] * RECENT
     assert wrongly_learnt([list(one), list(two)], [[one], [two]]) == 0
@@ -81,7 +81,7 @@ def test_what_was_learnt_must_be_the_last_episodes_transitions_and_all_of_them()
     assert wrongly_learnt([list(two)] * RECENT, [[one], *later]) == 0
 
 
-def test_minutes_are_the_games_and_what_was_waited_for_and_an_unsolved_trial_never_ends() -> None:
+def test_minutes_are_game_time_and_waiting_and_infinite_for_an_unsolved_trial() -> None:
     assert RIGHT.minutes == 2.0
     unsolved = dataclasses.replace(RIGHT, solved=False)
     assert unsolved.minutes == float("inf")
@@ -90,7 +90,7 @@ def test_minutes_are_the_games_and_what_was_waited_for_and_an_unsolved_trial_nev
 
 
 @pytest.mark.parametrize("wrong", ["wrong_cells", "wrong_blocks", "unnoticed", "wrongly_learnt"])
-def test_each_wrong_count_alone_is_wrong(wrong: str) -> None:
+def test_trial_with_a_single_wrong_count_is_not_right(wrong: str) -> None:
     assert RIGHT.is_right
     trial = dataclasses.replace(RIGHT)
     setattr(trial, wrong, 1)

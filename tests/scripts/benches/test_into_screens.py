@@ -21,11 +21,11 @@ def pressed_after(opened_s: float, screen: str = "pause") -> tuple[int, int]:
     return presses.into_screens, presses.too_late
 
 
-def test_a_press_that_a_picture_could_have_kept_back_is_counted() -> None:
+def test_press_after_a_picture_of_the_screen_is_counted() -> None:
     assert pressed_after(0.3) == (1, 0)
 
 
-def test_a_press_before_any_picture_of_the_screen_is_counted_apart() -> None:
+def test_press_before_any_picture_of_the_screen_is_counted_separately() -> None:
     assert pressed_after(0.0) == (0, 1)
 
 

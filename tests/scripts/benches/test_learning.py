@@ -15,13 +15,13 @@ from scripts.benches.learning import PAPER, flops_of_an_update, ours, summary
 ROOT = Path(__file__).resolve().parents[3]
 
 
-def test_the_arithmetic_of_an_update_is_that_of_its_products() -> None:
+def test_flops_of_an_update_are_those_of_its_matrix_products() -> None:
     # 4 inputs, 32 and 32 nodes, 8 outputs; three passes forward, weights' gradients, and those of two layers' inputs.
     first, *others = [inputs * outputs for inputs, outputs in pairwise((4, 32, 32, 8))]
     assert flops_of_an_update() == 2 * 32 * (4 * first + 5 * sum(others))
 
 
-def test_ratios_are_medians_of_rounds_side_by_side() -> None:
+def test_ratios_are_the_medians_of_the_ratios_of_each_round() -> None:
     loops = {"plain loop": [5.0, 10.0, 15.0], "plain loop, one": [5.0, 5.0, 5.0], "bmm": [1.0]}
     ours = {"compiled 1": [10.0, 40.0, 30.0], "torch 1": [4.0, 4.0, 5.0], "images 1": [1.0, 2.0, 3.0]}
     found = summary(loops | ours, [1], cores=2)
@@ -30,7 +30,7 @@ def test_ratios_are_medians_of_rounds_side_by_side() -> None:
     assert (found["ratio_plain_loop"], found["ratio_one_run"], found["sb3"]) == (2.0, 6.0, None)
 
 
-def test_where_all_runs_have_had_their_episodes_others_begin() -> None:
+def test_new_runs_begin_once_all_runs_have_had_their_episodes() -> None:
     work = ours(2, PAPER.changed(episodes=1))
     updates = [work() for _ in range(100)]
     assert sum(updates[50:]) > 0

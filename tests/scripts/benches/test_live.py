@@ -20,7 +20,7 @@ def test_nothing_is_wrong_in_a_short_play_without_mishaps() -> None:
 
 
 @pytest.mark.slow
-def test_a_clients_older_pictures_are_found_by_calibration_and_played_with_as_well() -> None:
+def test_calibration_finds_a_capture_latency_of_75_ms_and_the_play_with_it_is_right() -> None:
     found = calibrated_walk(VirtualClient(pitch=GROUND_PITCH, capture_latency_s=(0.075, 0.075)))
     assert found.input_latency_s + found.capture_latency_s == pytest.approx(0.075 + 0.0125 + FRAME_S / 2, abs=0.012)
     usual, slow = (play(40, 0.0, 1, load_scenario("diamond"), latency_ms) for latency_ms in (None, (60.0, 90.0)))
@@ -31,7 +31,7 @@ def test_a_clients_older_pictures_are_found_by_calibration_and_played_with_as_we
 
 
 @pytest.mark.parametrize("latency_ms", [("90", "60"), ("-1", "5"), ("10", "900")])
-def test_latencies_that_no_profile_holds_are_refused_in_a_line(
+def test_latencies_out_of_range_or_out_of_order_are_refused_in_one_line(
     latency_ms: tuple[str, str], capsys: pytest.CaptureFixture[str]
 ) -> None:
     with pytest.raises(SystemExit, match="2"):

@@ -54,7 +54,7 @@ class Mistaken(ClientTruth):
         return self.looks % 4 != 0 and super().is_built(placed)
 
 
-def test_a_play_that_goes_as_it_should_has_nothing_wrong() -> None:
+def test_play_that_agrees_with_the_world_has_nothing_wrong() -> None:
     counts = played(ClientTruth, 12)
     assert counts.is_right
     assert (counts.actions, counts.failed_actions) == (12, 0)
@@ -108,7 +108,7 @@ class Deceived:
         return Outcome(LINE.start, None)
 
 
-def test_what_neither_the_world_nor_the_rules_say_is_counted_and_a_failed_episode_is_dropped() -> None:
+def test_answers_against_the_world_or_the_rules_are_counted_and_a_failed_episode_is_dropped() -> None:
     client = VirtualClient(seed=1)
     with playing(client, LINE) as live:
         game = CheckedGame(Deceived(live), ClientTruth(client, arena_of(client)), LINE, client.clock.now)
@@ -124,14 +124,14 @@ def test_what_neither_the_world_nor_the_rules_say_is_counted_and_a_failed_episod
 
 
 @pytest.mark.parametrize("wrong", ["wrong_cells", "wrong_blocks", "unnoticed", "gave_up", "left_down", "strays"])
-def test_each_wrong_count_alone_is_wrong(wrong: str) -> None:
+def test_play_with_a_single_wrong_count_is_not_right(wrong: str) -> None:
     assert PlayCounts(actions=5, corrections=3, failed_actions=2).is_right
     counts = PlayCounts()
     setattr(counts, wrong, 1)
     assert not counts.is_right
 
 
-def test_the_clients_world_is_as_built_only_with_these_cells_and_what_was_there() -> None:
+def test_world_counts_as_built_only_with_exactly_these_cells_and_the_earlier_blocks() -> None:
     client = VirtualClient()
     client.realm.world.put((50, 64, 50), "dirt")
     arena = Arena.around((7, 64, 0), "south")
@@ -157,7 +157,7 @@ def test_only_actions_that_do_something_are_drawn() -> None:
     assert 0 < len(drawn) < len(Action)
 
 
-def test_an_episode_is_over_without_blocks_or_steps_and_where_the_agent_has_walled_itself_in() -> None:
+def test_episode_is_over_without_blocks_or_steps_left_or_with_the_agent_walled_in() -> None:
     line = load_scenario("line")
     assert is_over((0, 0), {(1, 0), (0, 1)}, 1, line)
     assert not is_over((0, 0), {(1, 0)}, 1, line)
@@ -184,7 +184,7 @@ def test_a_game_that_can_not_be_reset_is_given_up() -> None:
     assert game.tries == GIVES_UP
 
 
-def test_the_figures_are_of_moves_and_placings_apart_and_together() -> None:
+def test_figures_give_the_medians_of_moves_and_placings_separately_and_together() -> None:
     counts = PlayCounts(actions=4, moves_s=[0.1, 0.3], placings_s=[0.5, 0.7])
     summary = figures_of(counts)
     assert summary["actions"] == 4

@@ -18,7 +18,7 @@ from mc_nested.entry_point import MadeArenaEnv, made_vector_env
 from scripts.documentation.reference import command_line, error_tree
 
 
-def test_every_verb_is_there_and_those_below_it() -> None:
+def test_command_line_page_has_a_section_for_every_verb_and_for_calibrate_all() -> None:
     page = command_line()
     assert page.startswith("## `mc-nested`\n")
     assert [f"\n### `mc-nested {verb}`\n" in page for verb in VERBS] == [True] * len(VERBS)
@@ -43,7 +43,7 @@ def test_every_keyword_of_the_env_is_on_its_page(call: str, function: Callable[.
     assert [f"\n| `{name}` | " in page for name in named] == [True] * len(named)
 
 
-def test_what_the_env_takes_and_returns_is_on_its_page() -> None:
+def test_env_page_has_spaces_actions_info_keys_and_render_modes() -> None:
     page, env = page_of("env"), gymnasium.make("mc_nested/Arena-v0")
     assert f"\n| observation | `{env.observation_space}`" in page
     assert f"\n| action | `{env.action_space}`" in page
@@ -54,7 +54,7 @@ def test_what_the_env_takes_and_returns_is_on_its_page() -> None:
     assert all(f'`"{mode}"`' in page for mode in ArenaEnv.metadata["render_modes"])
 
 
-def test_every_error_is_below_the_one_that_it_is_a_kind_of() -> None:
+def test_every_error_is_listed_with_its_base_class() -> None:
     tree = error_tree()
     for name, kind in inspect.getmembers(errors, inspect.isclass):
         assert f"| `{name}` | `{kind.__mro__[1].__name__}` | " in tree

@@ -29,7 +29,7 @@ class Whole(BaseModel):
     maybe: Below | None = None
 
 
-def test_keys_have_their_kind_their_limits_and_what_they_are_if_left_out() -> None:
+def test_keys_are_listed_with_their_type_limits_and_default() -> None:
     page = markdown(Whole)
     assert "| `name` | text | must be there | What it is called. |" in page
     assert '| `kind` | `"one"`, `"two"` | `"one"` | Which. |' in page

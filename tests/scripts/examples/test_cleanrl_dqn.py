@@ -48,7 +48,7 @@ def test_the_step_that_begins_an_episode_is_never_learnt_from() -> None:
     assert float(values.abs().max()) < 10
 
 
-def test_a_greedy_episode_is_the_first_arenas() -> None:
+def test_greedy_score_is_that_of_the_first_arena() -> None:
     class Builder(QNetwork):
         """Steps back once, then steps back and places: PAIR. The other arenas bump against the edge."""
 
@@ -101,6 +101,6 @@ def test_a_mistake_is_one_line_and_exit_code_2(words: list[str], says: str, tmp_
     assert done.stderr.count("\n") == 1
 
 
-def test_an_unknown_scenario_starts_no_process(capsys: pytest.CaptureFixture[str]) -> None:
+def test_unknown_scenario_is_refused(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["--scenario", "castle"]) == 2
     assert "no scenario 'castle'" in capsys.readouterr().err

@@ -9,7 +9,7 @@ from scripts.examples.sb3_dqn import main
 from tests.scripts.examples.running import MISTAKES, PAIR, pair_in, run
 
 
-def test_without_the_library_it_says_how_to_get_it(
+def test_example_without_stable_baselines3_says_how_to_install_it(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.setitem(sys.modules, "stable_baselines3", None)  # importing it fails

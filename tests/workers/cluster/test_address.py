@@ -68,7 +68,7 @@ def test_a_folder_without_a_part_of_the_keys_is_refused(name: str, keys: Path) -
         scheduler_address("10.0.0.1", keys)
 
 
-def test_a_pair_of_two_machines_is_refused(keys: Path, tmp_path: Path) -> None:
+def test_certificate_and_key_of_two_machines_are_refused(keys: Path, tmp_path: Path) -> None:
     (other,) = make_keys(tmp_path, ["other"])
     (keys / KEY).write_bytes((other / KEY).read_bytes())
     with pytest.raises(ClusterError, match="damaged, or of two machines"):

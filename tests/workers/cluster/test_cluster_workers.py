@@ -25,7 +25,7 @@ def test_an_unfinished_job_that_no_worker_trains_counts_as_waiting() -> None:
     assert seen.in_words(2) == "2 workers, 0 jobs training, 2 waiting"
 
 
-def test_a_job_whose_worker_went_is_begun_again() -> None:
+def test_job_whose_worker_left_counts_as_begun_again() -> None:
     seen = ClusterWorkers([ONE, TWO])
     seen.begins("a", ONE)
     seen.begins("b", TWO)
@@ -37,7 +37,7 @@ def test_a_job_whose_worker_went_is_begun_again() -> None:
     assert seen.in_words(2) == "0 workers, 0 jobs training, 2 waiting; lost 2 workers, 3 jobs begun again"
 
 
-def test_a_worker_that_was_told_to_go_while_it_had_no_job_is_not_lost() -> None:
+def test_idle_worker_that_was_told_to_go_does_not_count_as_lost() -> None:
     seen = ClusterWorkers([ONE])
     seen.note(went(ONE, expected=True))
     assert seen.in_words(0) == "0 workers, 0 jobs training, 0 waiting"

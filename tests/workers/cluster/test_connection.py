@@ -48,13 +48,13 @@ def secured(folder: Path) -> Iterator[str]:
         yield url
 
 
-def test_a_machine_of_the_authority_is_let_in(secured: str, folder: Path) -> None:
+def test_machine_with_a_certificate_of_the_authority_is_let_in(secured: str, folder: Path) -> None:
     assert secured.startswith("tls://")
     with connected(SchedulerAddress(secured, folder / "own" / "pc")) as client:
         assert client.nthreads() == {}
 
 
-def test_a_wrong_certificate_is_refused(secured: str, folder: Path) -> None:
+def test_machine_with_keys_of_another_authority_is_refused(secured: str, folder: Path) -> None:
     address = SchedulerAddress(secured, folder / "other" / "pc")
     with pytest.raises(ClusterError, match="with keys of the same authority as"), connected(address):
         pytest.fail("let in")
@@ -71,7 +71,7 @@ def test_a_certificate_of_another_authority_is_refused_even_if_it_trusts_the_sch
         pytest.fail("let in")
 
 
-def test_without_tls_nobody_is_let_in(secured: str) -> None:
+def test_client_without_tls_is_refused_by_a_tls_scheduler(secured: str) -> None:
     address = SchedulerAddress(secured.replace("tls://", "tcp://"), None)
     with pytest.raises(ClusterError, match="one with keys is written tls://"), connected(address):
         pytest.fail("let in")
@@ -99,7 +99,7 @@ def test_the_scheduler_lets_nobody_in_without_a_certificate(secured: str, folder
     assert not is_let_in(secured, folder / "own" / "pc", certificate=False)
 
 
-def test_a_game_without_a_certificate_is_refused(secured: str, folder: Path) -> None:
+def test_game_refuses_a_peer_without_a_certificate_of_its_authority(secured: str, folder: Path) -> None:
     with GameWorker(SchedulerAddress(secured, folder / "own" / "pc"), "pc", lambda _: None) as game:
         assert is_let_in(game.listens_at, folder / "own" / "learner", certificate=True)
         assert not is_let_in(game.listens_at, folder / "own" / "learner", certificate=False)
@@ -138,7 +138,7 @@ def test_a_scheduler_that_hangs_is_given_up(monkeypatch: pytest.MonkeyPatch) -> 
             pytest.fail("it doesn't answer")
 
 
-def test_without_dask_it_says_how_to_install_it(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_error_without_dask_says_how_to_install_it(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "distributed", None)
     with pytest.raises(ClusterError, match=r"pip install -c constraints\.txt -e '\.\[cluster\]'"):
         check_installed()

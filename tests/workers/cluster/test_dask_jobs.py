@@ -74,7 +74,7 @@ def named(job: Job, name: str) -> Job:
     return dataclasses.replace(job, name=name)
 
 
-def test_a_job_on_a_worker_ends_as_it_does_on_this_computer(client: Client, tmp_path: Path) -> None:
+def test_job_on_a_worker_has_the_same_outcome_as_on_this_computer(client: Client, tmp_path: Path) -> None:
     here, there = tmp_path / "here" / "jobs" / JOB.name, tmp_path / "there" / "jobs" / JOB.name
     train_job(JOB, here, goes_on, 1.0)
     heard = Heard()
@@ -90,7 +90,7 @@ def test_a_job_on_a_worker_ends_as_it_does_on_this_computer(client: Client, tmp_
     assert sorted(events) == sorted(path.name for path in (tmp_path / "here" / "tensorboard").iterdir())
 
 
-def test_it_goes_on_from_a_checkpoint_of_this_computer(client: Client, tmp_path: Path) -> None:
+def test_job_on_a_worker_goes_on_from_a_checkpoint_of_this_computer(client: Client, tmp_path: Path) -> None:
     whole, cut = tmp_path / "whole" / "jobs" / JOB.name, tmp_path / "cut" / "jobs" / JOB.name
     train_job(JOB, whole, goes_on, 1.0)
     ticks = iter([True] * 30)
@@ -104,7 +104,7 @@ def test_it_goes_on_from_a_checkpoint_of_this_computer(client: Client, tmp_path:
     assert one.runs == other.runs
 
 
-def test_when_stopped_jobs_in_training_come_back_and_waiting_jobs_do_not_begin(client: Client, tmp_path: Path) -> None:
+def test_stop_brings_back_jobs_in_training_and_waiting_jobs_do_not_begin(client: Client, tmp_path: Path) -> None:
     jobs = [(named(LONG, name), tmp_path / "jobs" / name) for name in ("one", "two", "three")]
     heard = Heard()
     train_jobs(DaskJobs(client), jobs, lambda: bool(heard.reports), heard)
@@ -152,7 +152,7 @@ def test_a_client_that_is_gone_leaves_no_job_training(
 
 
 @pytest.mark.slow
-def test_a_killed_worker_costs_the_job_that_it_trained_which_is_counted_once(tmp_path: Path) -> None:
+def test_job_of_a_killed_worker_is_begun_again_and_counted_once(tmp_path: Path) -> None:
     with scheduler(tmp_path) as url, connected(SchedulerAddress(url, None)) as client:
         workers = [worker(tmp_path, url)]
         killed = False
@@ -180,7 +180,7 @@ def test_a_killed_worker_costs_the_job_that_it_trained_which_is_counted_once(tmp
         assert said == "1 worker, 0 jobs training, 0 waiting; lost 1 worker, 1 job begun again"
 
 
-def test_a_scheduler_that_is_lost_ends_it_with_one_line(tmp_path: Path) -> None:
+def test_scheduler_that_shuts_down_ends_the_jobs_with_an_error(tmp_path: Path) -> None:
     with scheduler(tmp_path) as url, connected(SchedulerAddress(url, None)) as client:
         running = worker(tmp_path, url)
         executor = DaskJobs(client)
@@ -198,7 +198,7 @@ def test_a_scheduler_that_is_lost_ends_it_with_one_line(tmp_path: Path) -> None:
 
 
 @pytest.mark.slow
-def test_a_scheduler_that_is_killed_ends_it_too(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_scheduler_that_is_killed_ends_the_jobs_with_an_error(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(connection_module, "CONNECT_S", 1.0)
     with ExitStack() as stack:
         killed = ExitStack()
@@ -230,7 +230,7 @@ class LosingExecutor:
         return lost
 
 
-def test_a_job_that_takes_every_worker_with_it_is_given_up(tmp_path: Path) -> None:
+def test_job_that_is_lost_with_every_worker_is_given_up(tmp_path: Path) -> None:
     executor = LosingExecutor()
     client = SimpleNamespace(
         get_executor=lambda **_: executor,

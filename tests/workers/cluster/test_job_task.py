@@ -75,7 +75,7 @@ def train(client: Client, folder: Path, topic: str, job: Job = JOB) -> Trained:
     return done
 
 
-def test_a_finished_job_sends_its_outcome_back_and_leaves_nothing(client: Client, tmp_path: Path) -> None:
+def test_finished_job_sends_its_outcome_back_and_leaves_no_file_on_the_worker(client: Client, tmp_path: Path) -> None:
     done = train(client, tmp_path, "one")
     assert done.ended == JobEnded(JOB.name, finished=True)
     assert list(done.files) == [OUTCOME]
@@ -92,7 +92,7 @@ def test_a_job_of_a_stopped_experiment_sends_its_checkpoint_back(client: Client,
     assert left(client) == []
 
 
-def test_what_it_reports_can_be_heard(client: Client, tmp_path: Path) -> None:
+def test_reports_of_a_job_are_published_with_job_and_worker(client: Client, tmp_path: Path) -> None:
     train(client, tmp_path, "heard")
     reports = [event for _, event in client.get_events("heard")]
     assert [report["episodes"] for report in reports][-1] == [20, 20]
@@ -125,14 +125,14 @@ def test_a_disk_error_is_reported_in_one_line(tmp_path: Path) -> None:
         landed_from(Trained(JobEnded(JOB.name, finished=True), {"outcome.json": b"{}"}, {}), folder)
 
 
-def test_whoever_waits_for_a_cancelled_job_is_told() -> None:
+def test_cancelled_job_wakes_whoever_waits_for_it() -> None:
     future: Future[JobEnded] = Future()
     cancel(future)
     assert wait([future], 0).done == {future}
     assert future.cancelled()
 
 
-def test_a_users_mistake_is_reported_as_it_is_and_any_other_error_with_its_name() -> None:
+def test_users_mistake_is_reported_unchanged_and_any_other_error_with_job_and_type() -> None:
     assert str(in_words(JOB, RunError("make room"))) == "make room"
     assert str(in_words(JOB, ValueError("odd"))) == f"job {JOB.name} failed on a worker: ValueError: odd"
 
@@ -147,19 +147,19 @@ def test_written_files_are_read_back(files: dict[str, bytes], tmp_path_factory: 
     assert files_below(folder) == files
 
 
-def test_a_folder_that_is_not_there_holds_nothing_and_a_lock_is_not_sent(tmp_path: Path) -> None:
+def test_missing_folder_has_no_files_to_send_and_a_lock_is_not_sent(tmp_path: Path) -> None:
     assert files_below(tmp_path / "none") == {}
     (tmp_path / LOCK).touch()
     assert files_below(tmp_path) == {}
 
 
-def test_an_outcome_takes_the_place_of_a_checkpoint(tmp_path: Path) -> None:
+def test_outcome_replaces_the_checkpoint(tmp_path: Path) -> None:
     write_below(tmp_path, {"checkpoint/old": b"1", LOCK: b""})
     land(tmp_path, {OUTCOME: b"{}"})
     assert files_below(tmp_path) == {OUTCOME: b"{}"}
 
 
-def test_a_checkpoint_takes_the_place_of_the_last_one_whole(tmp_path: Path) -> None:
+def test_checkpoint_replaces_the_last_one_as_a_whole(tmp_path: Path) -> None:
     write_below(tmp_path, {"checkpoint/old": b"1", "checkpoint/both": b"1", "checkpoint.new/half": b"1"})
     land(tmp_path, {"checkpoint/new": b"2", "checkpoint/both": b"2"})
     assert files_below(tmp_path) == {"checkpoint/new": b"2", "checkpoint/both": b"2"}

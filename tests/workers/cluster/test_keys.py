@@ -84,7 +84,7 @@ def test_a_machines_keys_are_never_replaced(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("name", ["", "a/b", "..", ".", AUTHORITY, "x" * 65])
-def test_a_machine_needs_a_name_that_a_folder_can_have(name: str, tmp_path: Path) -> None:
+def test_machine_name_that_no_folder_can_have_is_refused(name: str, tmp_path: Path) -> None:
     with pytest.raises(ClusterError, match="can't be a machine's name"):
         make_keys(tmp_path / "keys", [name])
     assert not (tmp_path / "keys").exists()
@@ -96,7 +96,7 @@ def test_a_machine_that_is_named_twice_is_refused_before_anything_is_made(tmp_pa
     assert not (tmp_path / "keys").exists()
 
 
-def test_half_an_authority_is_refused(tmp_path: Path) -> None:
+def test_authority_with_a_wrong_or_missing_key_is_refused(tmp_path: Path) -> None:
     make_keys(tmp_path / "a", ["pc"])
     make_keys(tmp_path / "b", ["pc"])
     (tmp_path / "a" / AUTHORITY_KEY).write_bytes((tmp_path / "b" / AUTHORITY_KEY).read_bytes())

@@ -8,19 +8,19 @@ from mc_nested.workers.cluster import versions
 from mc_nested.workers.cluster.versions import LIBRARIES, differences, own_versions
 
 
-def test_a_machine_agrees_with_itself() -> None:
+def test_own_versions_do_not_differ_from_themselves() -> None:
     assert differences(own_versions(), own_versions()) == ""
     assert set(own_versions()) == {"mc-nested", *LIBRARIES}
 
 
-def test_for_another_librarys_agent_its_version_counts_too() -> None:
+def test_version_of_another_agents_library_is_compared_too() -> None:
     wanted = own_versions("no-such-library")
     assert wanted["no-such-library"] == "missing"
     assert "gymnasium" in wanted
     assert differences({**wanted, "no-such-library": "1.0"}, wanted) == "no-such-library missing instead of 1.0"
 
 
-def test_what_differs_is_named_with_both_versions() -> None:
+def test_differences_name_each_library_with_both_versions() -> None:
     wanted = {"mc-nested": "0.1.0 (a)", "numpy": "2", "numba": "1"}
     own = {"mc-nested": "0.1.0 (b)", "numpy": "2"}
     assert differences(wanted, own) == "mc-nested 0.1.0 (b) instead of 0.1.0 (a), numba missing instead of 1"
@@ -42,5 +42,5 @@ def test_any_change_of_a_file_counts_except_its_line_endings(tmp_path: Path) -> 
 
 
 @pytest.mark.parametrize("name", LIBRARIES)
-def test_every_library_counts(name: str) -> None:
+def test_difference_in_any_library_is_named(name: str) -> None:
     assert differences(own_versions(), {**own_versions(), name: "0"}).startswith(f"{name} 0 instead of")

@@ -107,7 +107,7 @@ def quiet(_: str) -> None:
     pass
 
 
-def test_games_come_answer_and_go(address: SchedulerAddress, client: Client, mailbox: Mailbox) -> None:
+def test_game_joins_answers_a_request_and_leaves(address: SchedulerAddress, client: Client, mailbox: Mailbox) -> None:
     plan = new_trainer().plan("one")
     with DaskGames(client, SETUP) as games:
         assert games.events(0.5) == []
@@ -136,7 +136,7 @@ def test_a_second_game_of_that_name_is_refused_and_the_first_stays(address: Sche
     assert said == [f"one has joined {address.url}"]
 
 
-def test_a_game_whose_network_is_gone_joins_again_and_breaks_off_what_it_played(
+def test_game_cut_off_from_its_network_joins_again_and_drops_its_episode(
     address: SchedulerAddress, client: Client, mailbox: Mailbox
 ) -> None:
     proxy = Proxy(address.url)
@@ -153,7 +153,7 @@ def test_a_game_whose_network_is_gone_joins_again_and_breaks_off_what_it_played(
     proxy.close()
 
 
-def test_an_answer_of_a_game_that_has_left_since_counts_and_is_told_first(
+def test_answer_of_a_game_that_left_afterwards_is_reported_before_its_leaving(
     address: SchedulerAddress, client: Client, mailbox: Mailbox
 ) -> None:
     with DaskGames(client, SETUP) as games:
@@ -165,7 +165,7 @@ def test_an_answer_of_a_game_that_has_left_since_counts_and_is_told_first(
 
 
 @pytest.mark.parametrize("looks", [True, False], ids=["while it looks", "while it doesn't look"])
-def test_a_learner_whose_network_was_gone_asks_its_games_anew(
+def test_learner_cut_off_from_its_network_sees_its_games_join_again(
     looks: bool, address: SchedulerAddress, mailbox: Mailbox
 ) -> None:
     proxy = Proxy(address.url)
@@ -187,7 +187,7 @@ def test_a_learner_whose_network_was_gone_asks_its_games_anew(
         assert until(games, 1) == [Answered("one", GameAnswer())]
 
 
-def test_an_episode_that_came_back_before_the_scheduler_was_lost_counts(
+def test_answer_that_arrived_before_the_scheduler_was_lost_is_reported(
     tmp_path: Path, mailbox: Mailbox, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(connection, "CONNECT_S", 1.0)
@@ -206,7 +206,7 @@ def test_an_episode_that_came_back_before_the_scheduler_was_lost_counts(
             games.events(0.1)
 
 
-def test_an_answer_that_cannot_be_fetched_is_told_once(
+def test_answer_that_cannot_be_fetched_is_reported_once(
     address: SchedulerAddress, client: Client, mailbox: Mailbox, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(dask_games, "FETCHED_S", 0.5)
@@ -221,7 +221,7 @@ def test_an_answer_that_cannot_be_fetched_is_told_once(
         assert games.events(0.5) == []
 
 
-def test_a_learner_that_is_done_wants_no_answer_any_more(
+def test_request_is_no_longer_wanted_once_the_learner_is_done(
     address: SchedulerAddress, client: Client, mailbox: Mailbox
 ) -> None:
     with GameWorker(address, "one", quiet):
@@ -254,7 +254,9 @@ def test_a_game_on_loopback_listens_on_loopback_alone(address: SchedulerAddress)
 
 
 @pytest.mark.usefixtures("mailbox")
-def test_an_experiments_job_leaves_a_game_alone(address: SchedulerAddress, client: Client, tmp_path: Path) -> None:
+def test_job_of_an_experiment_does_not_begin_on_a_game(
+    address: SchedulerAddress, client: Client, tmp_path: Path
+) -> None:
     with GameWorker(address, "one", quiet):
         assert workers_that_train(client) == []
         job = one_job("nested", [DOT], 1)
@@ -269,7 +271,7 @@ def test_an_experiments_job_leaves_a_game_alone(address: SchedulerAddress, clien
 
 @pytest.mark.slow
 @pytest.mark.usefixtures("mailbox")
-def test_an_experiments_job_waits_beside_a_game_for_a_worker(
+def test_job_of_an_experiment_waits_for_a_worker_beside_a_game(
     address: SchedulerAddress, client: Client, tmp_path: Path
 ) -> None:
     with GameWorker(address, "one", quiet):
@@ -287,7 +289,7 @@ def test_an_experiments_job_waits_beside_a_game_for_a_worker(
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="reads Linux's list of sockets")
-def test_each_try_to_join_again_leaves_nothing_open(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_tries_to_join_again_close_their_ports(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(game_worker, "START_S", 0.5)
     made: list[distributed.Worker] = []
 
@@ -322,7 +324,7 @@ def test_a_scheduler_that_is_lost_for_good_is_reported(tmp_path: Path, monkeypat
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="processes can't be stopped and continued")
-def test_a_scheduler_that_hangs_keeps_nobody_waiting(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_learner_does_not_wait_for_a_scheduler_that_hangs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     psutil = pytest.importorskip("psutil")
     monkeypatch.setattr(dask_games, "LOOKS_S", 0.3)
     monkeypatch.setattr(dask_games, "LOOK_EVERY_S", 0.0)
@@ -343,7 +345,7 @@ def test_a_scheduler_that_hangs_keeps_nobody_waiting(tmp_path: Path, monkeypatch
             assert until(games, 1) == [Joined("one")]
 
 
-def test_no_scheduler_is_one_line_and_leaves_no_thread(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_missing_scheduler_is_an_error_that_leaves_at_most_one_thread(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(connection, "CONNECT_S", 0.5)
     before = threading.active_count()
     with pytest.raises(ClusterError, match=r"no scheduler answered at tcp://127\.0\.0\.1:9"):

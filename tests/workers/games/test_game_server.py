@@ -93,7 +93,7 @@ def test_an_episode_is_played_as_it_was_planned(served: Served) -> None:
     assert served.closed == 1
 
 
-def test_asked_without_a_plan_it_says_that_it_is_ready(served: Served) -> None:
+def test_game_asked_without_a_plan_answers_that_it_is_ready(served: Served) -> None:
     (answer,) = served.ask(None)
     assert (answer.episode, answer.problem, answer.is_refusal) == (None, "", False)
     assert served.said == []
@@ -104,7 +104,7 @@ def test_the_game_stays_open_between_episodes(served: Served) -> None:
     assert len(served.opened) == 1
 
 
-def test_a_mishap_costs_its_episode_and_nothing_else(served: Served) -> None:
+def test_mishap_spoils_only_its_own_episode(served: Served) -> None:
     mishaps = iter([NotConfirmedError("it did not move")])
 
     def once() -> None:
@@ -119,7 +119,7 @@ def test_a_mishap_costs_its_episode_and_nothing_else(served: Served) -> None:
     assert second.log["spoiled_episodes"] == 1
 
 
-def test_an_episode_that_nobody_wants_any_more_is_broken_off_with_no_key_down(served: Served) -> None:
+def test_unwanted_episode_is_broken_off_with_no_key_down(served: Served) -> None:
     steps: list[int] = []
     served.before_step = lambda: steps.append(1)
     (answer,) = served.ask(PLAN, wanted=lambda: len(steps) < 2)
@@ -130,7 +130,7 @@ def test_an_episode_that_nobody_wants_any_more_is_broken_off_with_no_key_down(se
     assert served.down == set()
 
 
-def test_an_episode_in_which_the_player_ends_it_is_broken_off_and_the_learner_is_told_why(served: Served) -> None:
+def test_player_who_ends_the_game_breaks_off_the_episode_and_the_learner_is_told_why(served: Served) -> None:
     def ends() -> None:
         served.is_ended = True
 
@@ -141,7 +141,7 @@ def test_an_episode_in_which_the_player_ends_it_is_broken_off_and_the_learner_is
     assert served.down == set()
 
 
-def test_while_the_player_is_elsewhere_it_waits_to_be_ready_but_gives_an_episode_back(served: Served) -> None:
+def test_game_in_the_background_waits_to_be_ready_but_returns_an_episode_unplayed(served: Served) -> None:
     served.is_in_front = False
     looks = iter(range(3))
 
@@ -158,13 +158,13 @@ def test_while_the_player_is_elsewhere_it_waits_to_be_ready_but_gives_an_episode
     assert answer.problem == "the game is paused: its player is in another window"
 
 
-def test_a_pause_that_nobody_waits_for_ends(served: Served) -> None:
+def test_pause_ends_if_nobody_wants_the_answer_any_more(served: Served) -> None:
     served.is_in_front = False
     (answer,) = served.ask(None, wanted=lambda: False)
     assert answer.problem == "the game is paused"
 
 
-def test_the_panic_key_ends_it_and_the_learner_is_told(served: Served) -> None:
+def test_panic_key_ends_the_game_and_the_learner_is_told(served: Served) -> None:
     served.before_step = stopped
     with pytest.raises(StoppedError):
         served.ask(PLAN, PLAN)
@@ -209,7 +209,7 @@ def test_a_game_whose_window_is_closed_ends_and_the_learner_is_told(served: Serv
     assert served.closed == 1
 
 
-def test_a_plan_that_nobody_waits_for_any_more_is_not_begun(served: Served) -> None:
+def test_unwanted_plan_is_not_begun(served: Served) -> None:
     steps: list[int] = []
     served.before_step = lambda: steps.append(1)
     (answer,) = served.ask(PLAN, wanted=lambda: False)
@@ -217,7 +217,7 @@ def test_a_plan_that_nobody_waits_for_any_more_is_not_begun(served: Served) -> N
     assert steps == []
 
 
-def test_a_game_that_fails_again_and_again_is_given_up(served: Served) -> None:
+def test_game_is_given_up_after_six_failed_episodes(served: Served) -> None:
     def fails() -> None:
         raise NotConfirmedError("it did not move")
 

@@ -17,7 +17,7 @@ def asked(mailbox: Mailbox) -> tuple[threading.Thread, list[GameAnswer]]:
     return thread, answers
 
 
-def test_whoever_asks_waits_for_the_answer() -> None:
+def test_ask_waits_for_the_answer() -> None:
     mailbox = Mailbox()
     thread, answers = asked(mailbox)
     request = mailbox.next()
@@ -28,11 +28,11 @@ def test_whoever_asks_waits_for_the_answer() -> None:
     assert answers == [GameAnswer(problem="no")]
 
 
-def test_without_a_request_there_is_none_after_a_moment() -> None:
+def test_next_returns_none_without_a_request() -> None:
     assert Mailbox().next() is None
 
 
-def test_closing_the_desk_tells_whoever_waits_or_asks_later() -> None:
+def test_closed_mailbox_answers_waiting_and_later_requests() -> None:
     mailbox = Mailbox()
     thread, answers = asked(mailbox)
     mailbox.close()
@@ -41,14 +41,14 @@ def test_closing_the_desk_tells_whoever_waits_or_asks_later() -> None:
     assert mailbox.ask(SETUP, None, lambda: True) == CLOSED
 
 
-def test_a_refusal_ends_the_main_thread() -> None:
+def test_next_raises_the_refusal() -> None:
     mailbox = Mailbox()
     mailbox.refuse(ClusterError("another version"))
     with pytest.raises(ClusterError, match="another version"):
         mailbox.next()
 
 
-def test_an_answer_that_came_before_it_was_closed_is_kept() -> None:
+def test_answer_given_before_the_mailbox_was_closed_is_kept() -> None:
     mailbox = Mailbox()
     thread, answers = asked(mailbox)
     request = mailbox.next()
