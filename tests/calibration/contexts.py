@@ -56,7 +56,7 @@ def profile_of(client: VirtualClient, folder: Path) -> Profile:
 
 
 def kept_profile(client: VirtualClient, folder: Path) -> Path:
-    """Return the file of such a profile."""
+    """Write the profile that `profile_of` returns; return its file."""
     file = folder / "mine.toml"
     save_profile(profile_of(client, folder), file)
     return file
@@ -75,7 +75,7 @@ def context_on(
     *,
     is_server_allowed: bool = False,
 ) -> OpenContext:
-    """Open such a context with the profile's own input; every key is released at the end."""
+    """Open a context, like `context_over`, with the profile's own input; every key is released at the end."""
 
     @contextmanager
     def opened(profile: Profile) -> Iterator[CalibrationContext]:

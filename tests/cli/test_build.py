@@ -74,7 +74,7 @@ def test_a_drawing_is_built(tmp_path: Path, capsys: pytest.CaptureFixture[str]) 
         (["line", "--backend", "live", "--profile", "none.toml"], "no profile 'none.toml'"),
     ],
 )
-def test_build_mistake_is_one_line_and_exit_code_2(
+def test_impossible_build_is_refused_in_one_line_with_exit_code_2(
     words: list[str], says: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     (tmp_path / "hut.schem").write_bytes(sponge(HUT))

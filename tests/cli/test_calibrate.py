@@ -139,7 +139,7 @@ def test_failing_step_is_a_one_line_error_and_writes_nothing(
     assert list(tmp_path.glob("mine*")) == []
 
 
-def test_ctrl_c_is_one_line_and_writes_nothing(
+def test_ctrl_c_ends_the_run_in_one_line_and_nothing_is_written(
     monkeypatch: pytest.MonkeyPatch, client: VirtualClient, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     set_up(monkeypatch, client, with_font(tmp_path), failing(KeyboardInterrupt()))

@@ -149,7 +149,7 @@ def test_font_and_clicks_steps_make_a_new_profile_and_show_its_points(
         (("clicks", "--hotkey", "f9"), "can't both record and skip"),
     ],
 )
-def test_a_mistake_is_one_line_and_nothing_is_written(
+def test_mistake_is_refused_in_one_line_and_nothing_is_written(
     words: tuple[str, ...],
     message: str,
     client: VirtualClient,

@@ -42,7 +42,7 @@ def test_scheduler_that_gets_no_worker_in_time_is_an_error(tmp_path: Path, monke
         (["--insecure"], "name one with --cluster"),
     ],
 )
-def test_a_mistake_is_one_line_and_writes_nothing(
+def test_mistake_is_refused_in_one_line_and_nothing_is_written(
     verb: str,
     words: list[str],
     says: str,

@@ -1,4 +1,4 @@
-"""Completing as shells ask for it, through the environment: one's own names, quickly, and what verbs take."""
+"""Completion as shells ask for it, through the environment: the user's names, quickly, and what verbs take."""
 
 import os
 import shutil
@@ -33,7 +33,7 @@ def asked(folder: Path, **variables: str) -> subprocess.CompletedProcess[str]:
 
 
 class AskedHere(Protocol):
-    """Asks as a shell does, but in this process: one of its own takes thirty times as long."""
+    """Asks as a shell does, but in this process: a new process takes thirty times as long."""
 
     def __call__(self, **variables: str) -> tuple[int, str]:
         """Return its exit code and what it prints; check that nothing is printed as an error."""
@@ -185,7 +185,7 @@ def test_options_that_complete_runs_or_profiles_are_those_of_the_quick_table(
 
 @pytest.fixture
 def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """Return a folder with runs/a, runs/b, other/c, and what is none."""
+    """Return a folder with runs/a, runs/b, other/c, and files and folders that are not runs."""
     monkeypatch.chdir(tmp_path)
     for name in ("runs/a", "runs/b", "other/c"):
         (tmp_path / name).mkdir(parents=True)

@@ -53,7 +53,7 @@ def url(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
 
 @pytest.fixture(autouse=True)
 def own_mailbox(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Give each test a mailbox of its own: one that is closed stays so."""
+    """Give each test a new mailbox: a closed one stays closed."""
     made = Mailbox()
     for module in (mailboxes, serve):
         monkeypatch.setattr(module, "process_mailbox", made)
@@ -92,7 +92,7 @@ def served(url: str, tmp_path: Path) -> Iterator[Served]:
 
 
 def begun_beside(served: Served, words: list[str], until: str = "episode") -> subprocess.Popen[str]:
-    """Begin a training in a process of its own, and wait until the game named one says these words."""
+    """Begin a training in a new process, and wait until the game named one says these words."""
     training = subprocess.Popen([sys.executable, "-m", "mc_nested.cli", *words], stderr=subprocess.PIPE, text=True)
     while training.poll() is None and until not in served.said("one"):
         time.sleep(0.05)
@@ -237,7 +237,7 @@ def test_game_of_another_backend_is_refused_with_the_reason_at_both_ends(
         (["train", "serve", "--scheduler", "127.0.0.1:PORT", "--backend", "sim"], "the simulator needs no game"),
     ],
 )
-def test_a_mistake_is_one_line_and_writes_nothing(
+def test_mistake_is_refused_in_one_line_and_nothing_is_written(
     words: list[str],
     says: str,
     nobodys_port: str,

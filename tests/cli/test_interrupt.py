@@ -9,7 +9,7 @@ from mc_nested.cli import interrupt as interrupt_module
 from mc_nested.cli.interrupt import catch_interrupts
 
 
-def test_the_first_ctrl_c_is_recorded_and_its_echo_is_not_a_second_one() -> None:
+def test_first_ctrl_c_is_recorded_and_its_echo_is_ignored() -> None:
     with catch_interrupts() as interrupt:
         assert not interrupt.requested
         signal.raise_signal(signal.SIGINT)
@@ -32,7 +32,7 @@ def test_signal_handlers_are_restored_after_the_block() -> None:
     assert (signal.getsignal(signal.SIGINT), signal.getsignal(signal.SIGTERM)) == before
 
 
-def test_the_message_is_printed_once(capfd: pytest.CaptureFixture[str]) -> None:
+def test_message_after_ctrl_c_is_printed_once(capfd: pytest.CaptureFixture[str]) -> None:
     with catch_interrupts() as interrupt:
         interrupt.says = "stopping"
         signal.raise_signal(signal.SIGINT)

@@ -1,4 +1,4 @@
-"""The command's first and last lines, in this process: what its streams can't write costs nothing."""
+"""The command's first and last lines, in this process: words that its streams can't write are lost without an error."""
 
 import io
 import os

@@ -1,4 +1,4 @@
-"""What no verb can do is refused in one line, before anything is written or a game is played."""
+"""Each mistake on the command line is refused in one line, before anything is written or a game is played."""
 
 from pathlib import Path
 
@@ -68,7 +68,7 @@ from tests.cli.running import check_mistake
         ),
     ],
 )
-def test_a_mistake_is_one_line_and_exit_code_2(
+def test_mistake_is_refused_in_one_line_with_exit_code_2(
     words: list[str], says: str, trained: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     check_mistake(words, says, trained, tmp_path, capsys)

@@ -30,7 +30,7 @@ def test_summary_has_a_live_games_log_and_failures_and_nothing_of_the_simulator(
     assert played_live(None, budget) == {}
 
 
-def test_a_scenario_larger_than_the_calibrated_arena_is_one_line_and_nothing_is_written(
+def test_scenario_larger_than_the_calibrated_arena_is_refused_and_nothing_is_written(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     large = dataclasses.replace(DOT, name="large", size=20)

@@ -53,7 +53,7 @@ def test_quiet_json_is_the_object_alone(capsys: pytest.CaptureFixture[str]) -> N
     assert err == ""
 
 
-def test_a_table_is_shown_to_a_person_as_wide_as_it_needs(capsys: pytest.CaptureFixture[str]) -> None:
+def test_table_is_printed_as_wide_as_its_content(capsys: pytest.CaptureFixture[str]) -> None:
     table = Table("head")
     table.add_row("x" * 100)
     Output().result(None, table)

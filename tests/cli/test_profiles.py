@@ -115,7 +115,7 @@ def test_unknown_profile_name_is_refused_in_one_line_and_nothing_is_deleted(
     assert (folder / "pc.toml").exists()
 
 
-def test_without_a_desktop_there_is_no_window(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_window_of_finds_no_window_without_a_desktop(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.undo()
     for name in ("DISPLAY", "WAYLAND_DISPLAY"):
         monkeypatch.delenv(name, raising=False)

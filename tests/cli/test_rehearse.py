@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 @pytest.fixture(autouse=True)
 def a_lock_of_its_own(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Use a lock of the test's own: other tests, and people, may rehearse at the same time."""
+    """Use a lock for this test alone: other tests, and people, may rehearse at the same time."""
     monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
 
 
@@ -58,7 +58,7 @@ def refused(capsys: pytest.CaptureFixture[str], *words: str | Path) -> str:
         (["--font", "nothing.png"], "nothing.png"),
     ],
 )
-def test_a_mistake_is_one_line(words: list[str], says: str, capsys: pytest.CaptureFixture[str]) -> None:
+def test_mistake_is_refused_in_one_line(words: list[str], says: str, capsys: pytest.CaptureFixture[str]) -> None:
     assert says in refused(capsys, *words)
 
 

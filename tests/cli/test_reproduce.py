@@ -221,7 +221,7 @@ def test_ctrl_c_saves_and_says_how_to_resume(
         (signal.SIGTERM, "a training process was asked to stop"),
     ],
 )
-def test_lost_training_process_is_one_line_and_resume_gives_the_same_files(
+def test_lost_training_process_is_reported_in_one_line_and_resume_gives_the_same_files(
     words: list[str], straight: dict[str, bytes], tmp_path: Path, number: signal.Signals, says: str
 ) -> None:
     out = tmp_path / "run"
@@ -246,7 +246,7 @@ def test_training_processes_end_if_the_command_is_killed(words: list[str], tmp_p
         wait_until(lambda: not any(Path(f"/proc/{pid}").exists() for pid in left))
 
 
-def test_full_disk_at_the_end_is_one_line_and_costs_no_file(
+def test_full_disk_at_the_end_is_reported_in_one_line_and_costs_no_file(
     done: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     before = written(done)
@@ -285,7 +285,7 @@ def test_full_disk_at_the_end_is_one_line_and_costs_no_file(
         (["benchmark"], "benchmark is now mc-nested study benchmark"),
     ],
 )
-def test_a_mistake_is_one_line_and_exit_code_2(
+def test_mistake_is_refused_in_one_line_with_exit_code_2(
     arguments: list[str], says: str, done: Path, files: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     odd = files / "odd.toml"

@@ -99,7 +99,7 @@ def test_nothing_is_deleted_if_nobody_can_be_asked(here: Path, monkeypatch: pyte
     assert (here / "runs" / "whole" / "config.toml").exists()
 
 
-def test_damaged_runs_can_be_deleted_and_several_at_once(here: Path) -> None:
+def test_several_runs_and_damaged_ones_can_be_deleted_at_once(here: Path) -> None:
     assert run("runs", "delete", "torn", "elsewhere", "--yes") == 0
     assert sorted(path.name for path in here.iterdir()) == ["runs"]
     assert sorted(path.name for path in (here / "runs").iterdir()) == ["notes", "whole"]

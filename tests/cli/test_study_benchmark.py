@@ -100,7 +100,7 @@ def test_a_benchmark_leaves_the_same_files_for_any_number_of_processes_and_after
         (["--resume", "NEW"], "no config.toml there: name a folder of mc-nested study benchmark (its --out)"),
     ],
 )
-def test_a_mistake_is_one_line_and_nothing_is_written(
+def test_mistake_is_refused_in_one_line_and_nothing_is_written(
     words: list[str],
     says: str,
     files: Path,

@@ -149,7 +149,7 @@ def test_training_from_a_team_run_has_its_policy_and_from_a_single_builders_run_
         ),
     ],
 )
-def test_a_mistake_is_one_line_and_exit_code_2(
+def test_mistake_is_refused_in_one_line_with_exit_code_2(
     words: list[str], says: str, trained: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     out = [] if "--resume" in words else ["--out", "NEW"]

@@ -53,7 +53,7 @@ def test_a_training_is_found_by_its_name_in_runs(
 
 
 @pytest.mark.parametrize("name", ["nothing", "runs"])
-def test_a_folder_that_is_no_run_is_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str], name: str) -> None:
+def test_folder_without_a_run_is_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str], name: str) -> None:
     (tmp_path / "runs").mkdir()
 
     assert run("view", tmp_path / name) == 2

@@ -117,7 +117,7 @@ def as_run(command: str) -> str:
 
 
 def what_it_does(command: str) -> frozenset[str]:
-    """Return a command's words without its sizes, its seed and its run's folder: two that have the same do the same."""
+    """Return a command's words without its sizes, seed and run folder: two commands with the same words do the same."""
     return frozenset(_OF_NO_MATTER.sub("", as_run(command)).split())
 
 

@@ -1,4 +1,4 @@
-"""Every recording in this folder reads and decides as it did: drop one in, and it is a test.
+"""Every recording in this folder is read and decided as it was: one that is dropped in becomes a test.
 
 ``NAME.mcap`` is read with the font ``NAME.png`` beside it, else with its profile's, else with that of a game on this
 computer. Recordings of the virtual client and of the rehearsal window are in ``virtual/``: they are written in the

@@ -1,4 +1,4 @@
-"""A PATH of a test's own."""
+"""A PATH with nothing but the test's own programs."""
 
 from pathlib import Path
 

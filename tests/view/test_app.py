@@ -149,7 +149,7 @@ def test_resized_screen_equals_one_opened_at_that_size(tmp_path: Path, live: Pat
     assert small == shown(tmp_path / "another", STATUSES[name], SIZES["200x60"], nothing)
 
 
-def test_a_run_whose_process_is_gone_says_so(tmp_path: Path) -> None:
+def test_view_says_so_if_the_runs_process_is_gone(tmp_path: Path) -> None:
     screen = shown(tmp_path, LIVE, SIZES["80x24"], nothing, after=FRESH_S)
 
     assert "✗ the run's process is gone; it was last seen at 01:48:20" in screen

@@ -102,7 +102,7 @@ def test_ctrl_c_in_the_view_stops_the_run(opened: Opens) -> None:
 
 
 @pytest.mark.slow
-def test_a_closed_view_leaves_the_run_going_with_its_plain_lines(opened: Opens) -> None:
+def test_run_goes_on_with_plain_lines_after_its_view_is_closed(opened: Opens) -> None:
     terminal = viewed_training(opened)
     terminal.press("q")
     terminal.until("run:        run")
@@ -153,7 +153,7 @@ def test_a_training_whose_terminal_is_closed_is_saved(opened: Opens, tmp_path: P
 
 
 @pytest.mark.slow
-def test_a_mistake_is_one_line_with_a_view_too(opened: Opens, tmp_path: Path) -> None:
+def test_mistake_is_refused_in_one_line_with_a_view_too(opened: Opens, tmp_path: Path) -> None:
     (tmp_path / "run").mkdir()
     (tmp_path / "run" / "file").write_text("")
     terminal = opened(*LONG, "--view")

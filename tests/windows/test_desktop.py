@@ -149,7 +149,7 @@ def test_window_has_the_size_title_and_program_that_glfw_gives_it(report: dict[s
     assert place["programs"][TITLE] == "python.exe GLFW30"
 
 
-def test_a_picture_is_the_windows_own_pixels(report: dict[str, Any]) -> None:
+def test_picture_has_the_pixels_of_the_window(report: dict[str, Any]) -> None:
     grab = report["grab"]
     assert grab["shape"] == [SIZE[1], SIZE[0], 3]
     assert (grab["left"], grab["right"]) == ([RED], [BLUE])

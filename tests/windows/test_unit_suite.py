@@ -27,7 +27,7 @@ class Results:
         ]
 
     def of(self, place: str) -> list[str | None]:
-        """Return what came of the tests in this file or folder of tests."""
+        """Return the outcomes of the tests in this file or folder."""
         module = place.removesuffix(".py").replace("/", ".")
         return [said for name, said in self.outcomes if name == module or name.startswith(f"{module}.")]
 

@@ -1,4 +1,4 @@
-"""A console whose world is a function of the test's: it notes the commands, and answers with readings."""
+"""A scripted console: it notes each command, and answers with the reading that a test's function returns."""
 
 from collections.abc import Callable, Sequence
 

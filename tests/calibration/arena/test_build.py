@@ -352,7 +352,7 @@ def test_copy_note_is_written_before_anything_is_built(tmp_path: Path, monkeypat
 
 
 def left_early(client: VirtualClient, folder: Path) -> tuple[Profile, Path]:
-    """Return a profile without an arena, whose file isn't there, with the note of one that was built."""
+    """Build an arena of which only the note knows; return a profile without it, and the profile's file, which isn't there."""
     file = folder / "new.toml"
     build_in(client, profile_of(client, folder), path=file)
     return profile_of(client, folder), file
@@ -518,7 +518,7 @@ def test_chat_opened_during_the_build_is_closed_or_ends_it_with_a_one_line_error
 
 
 def disturbed(kind: Kind, after_s: float, folder: Path) -> VirtualClient:
-    """Return a client with a profile in ``folder``, where such a mishap is to happen at about that time."""
+    """Return a client with a profile in ``folder``, where a mishap of this kind happens about so many seconds later."""
     client = VirtualClient()
     kept_profile(client, folder)
     for try_s in range(10):

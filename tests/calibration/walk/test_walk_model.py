@@ -142,7 +142,7 @@ def holds_led(covered_in: Callable[[float], float], count: int = 12, sneaking: f
     return walked + [hold("sneak", length, sneaking * covered_in(length)) for length in lengths]
 
 
-def test_a_linear_walk_gives_its_line() -> None:
+def test_linear_walk_is_fitted_by_its_line() -> None:
     found = empirical_walk(holds_led(lambda held_s: 4.0 * held_s), USUAL)
     assert found is not None
     assert found.table.covered == pytest.approx([0.2 * ticks for ticks in range(1, 13)], abs=1e-4)

@@ -69,7 +69,7 @@ def test_each_difference_from_the_world_is_counted() -> None:
 
 
 class Pausing(ClientTruth):
-    """True, but when it is asked for the third time, the game is paused."""
+    """Tells the truth, but pauses the game at the third look."""
 
     def __init__(self, client: VirtualClient, arena: Arena) -> None:
         super().__init__(client, arena)

@@ -8,7 +8,7 @@ def test_table_escapes_pipes_only_outside_code() -> None:
     assert table(["a", "b"], rows) == "| a | b |\n| --- | --- |\n| `NAME|FILE` | one \\| two |\n"
 
 
-def test_a_cell_is_one_line() -> None:
+def test_line_breaks_in_a_table_cell_become_blanks() -> None:
     assert "| one two |" in table(["a"], [["one\n  two"]])
 
 

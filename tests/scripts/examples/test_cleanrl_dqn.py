@@ -20,7 +20,7 @@ PROGRESS = re.compile(r"\d+ of \d+ steps, \d+ a second, ε \d\.\d\d, mean return
 
 
 class PaysForBeginning(VectorWrapper[Any, Any, Any, Any, Any]):
-    """Arenas that pay a fortune at the step at which an episode begins by itself: whoever learns from it shows it."""
+    """Arenas that pay a fortune at the step that begins an episode: a network that learns from that step shows it."""
 
     def __init__(self, env: VectorEnv[Any, Any, Any]) -> None:
         super().__init__(env)
@@ -93,7 +93,7 @@ def test_the_example_learns_two_blocks_within_seconds(tmp_path: Path) -> None:
 
 @pytest.mark.slow
 @MISTAKES
-def test_a_mistake_is_one_line_and_exit_code_2(words: list[str], says: str, tmp_path: Path) -> None:
+def test_mistake_is_refused_in_one_line_with_exit_code_2(words: list[str], says: str, tmp_path: Path) -> None:
     done = run("cleanrl_dqn", tmp_path, *words)
     assert (done.returncode, done.stdout) == (2, "")
     assert done.stderr.startswith("cleanrl_dqn: ")

@@ -38,7 +38,7 @@ def test_the_example_learns_two_blocks_within_seconds(tmp_path: Path) -> None:
 
 @pytest.mark.slow
 @MISTAKES
-def test_a_mistake_is_one_line_and_exit_code_2(words: list[str], says: str, tmp_path: Path) -> None:
+def test_mistake_is_refused_in_one_line_with_exit_code_2(words: list[str], says: str, tmp_path: Path) -> None:
     done = run("sb3_dqn", tmp_path, *words)
     assert (done.returncode, done.stdout) == (2, "")
     assert done.stderr.startswith("sb3_dqn: ")

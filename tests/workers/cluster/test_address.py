@@ -1,4 +1,4 @@
-"""Which address is spoken to how: TLS wherever others could listen, unless they insist."""
+"""The scheme of an address: TLS wherever others could listen, unless plain TCP is asked for."""
 
 from pathlib import Path
 

@@ -188,7 +188,7 @@ def test_the_panic_key_ends_a_game_that_is_paused_too(served: Served) -> None:
     assert served.said == ["paused: switch to the game to let it go on"]
 
 
-def test_the_panic_key_ends_a_game_that_nobody_asks_for_an_episode(served: Served) -> None:
+def test_panic_key_ends_an_idle_game(served: Served) -> None:
     served.looks, served.check_stopped = iter(range(5)), stopped
     with pytest.raises(StoppedError):
         served.ask(PLAN)
