@@ -1,4 +1,4 @@
-"""The acceptance test on the virtual client: what it builds is really there, and every error is noticed."""
+"""The acceptance test on the virtual client really builds its design, and notices every error."""
 
 import dataclasses
 from pathlib import Path

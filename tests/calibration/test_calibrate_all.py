@@ -1,4 +1,4 @@
-"""The guided run on virtual clients: what is written, and that nothing is written if anything goes wrong.
+"""The guided run on virtual clients writes a profile, and writes nothing if anything goes wrong.
 
 The runner of the steps: what each step gets, what ends the run, and which steps are skipped.
 """

@@ -1,4 +1,4 @@
-"""Commands typed into a virtual client's chat, and what is watched for on its debug screen."""
+"""Commands are typed into a virtual client's chat, and their effect is watched for on its debug screen."""
 
 from pathlib import Path
 

@@ -1,4 +1,4 @@
-"""What a calibration starts from, and files that no profile can be written to.
+"""The profile that a calibration starts from, and refusals of files that can't be written.
 
 What a step found, written: pictures first, so that a profile never names a point without one.
 """

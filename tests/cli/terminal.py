@@ -1,4 +1,4 @@
-"""A program in a terminal of its own (a pseudo-terminal): what it shows, and keys for it."""
+"""A program in a pseudo-terminal: the text that it shows, and keys for it."""
 
 import fcntl
 import os
@@ -40,12 +40,12 @@ class Terminal:
 
     @property
     def text(self) -> str:
-        """All that was shown until now, without its colours and places."""
+        """The whole text that was shown until now, without colours and positions."""
         return ESCAPES.sub(b"", self.raw).decode(errors="replace")
 
     @property
     def mode(self) -> list[object]:
-        """How the terminal is set now."""
+        """The terminal's current settings."""
         return list(termios.tcgetattr(self._slave))
 
     def until(self, words: str, *others: "Terminal") -> None:

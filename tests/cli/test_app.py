@@ -1,4 +1,4 @@
-"""The command: which verbs and modules it loads, and what becomes of an error."""
+"""The command loads only the verb that is named, and turns an error into one line and an exit code."""
 
 import importlib.metadata
 import os

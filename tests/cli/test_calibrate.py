@@ -1,4 +1,4 @@
-"""``mc-nested calibrate``: what the guided run says step by step, its exit codes, its report, and how it is undone."""
+"""``mc-nested calibrate all`` and ``undo``: their words step by step, their exit codes, and the report."""
 
 import json
 from pathlib import Path

@@ -1,4 +1,4 @@
-"""The steps of a calibration on the command line: what each prints and writes, who is asked, what is refused."""
+"""The steps of a calibration on the command line: their words, files, questions and refusals."""
 
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager

@@ -1,4 +1,4 @@
-"""``mc-nested doctor`` as it is typed: a table or nothing but JSON, the exit code, and what ``--fix`` writes."""
+"""``mc-nested doctor``: its table or JSON, its exit code, and the files that ``--fix`` writes."""
 
 import json
 import sys

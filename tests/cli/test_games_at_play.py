@@ -1,4 +1,4 @@
-"""Who plays which episode of a training of many games, what is counted and what is lost; the games are made up."""
+"""A training with many games, made up here: who plays which episode, and which episodes count or are lost."""
 
 import dataclasses
 from collections import deque

@@ -1,4 +1,4 @@
-"""``mc-nested train --games`` and ``train serve``: processes of their own, over a real scheduler."""
+"""``mc-nested train --games`` and ``train serve``, in separate processes, over a real scheduler."""
 
 import json
 import os

@@ -1,4 +1,4 @@
-"""What --json prints is what --help says, for every verb that has it."""
+"""--json prints the fields that --help names, for every verb that has it."""
 
 import json
 from pathlib import Path

@@ -1,4 +1,4 @@
-"""Options that several verbs share: scenarios by name and file, arenas by size, and what playing took."""
+"""Options that several verbs share: scenarios by name and file, layers, arenas by size, and the live summary."""
 
 import dataclasses
 from pathlib import Path

@@ -1,4 +1,4 @@
-"""--quiet and --json: what goes to which stream."""
+"""--quiet and --json: which words go to which stream, and how tables fit."""
 
 import io
 import json

@@ -1,4 +1,4 @@
-"""``mc-nested profiles``: what it lists, renames and deletes."""
+"""``mc-nested profiles`` lists, shows, renames and deletes profiles."""
 
 import json
 from pathlib import Path

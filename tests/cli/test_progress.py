@@ -1,4 +1,4 @@
-"""A training's progress bar: what it says of a training, and no more often than is needed."""
+"""A training's progress bar: its figures, its map, and how often it is refreshed."""
 
 import io
 import os

@@ -1,4 +1,4 @@
-"""``mc-nested rehearse``: what it refuses; the window itself is in tests/sim/window."""
+"""``mc-nested rehearse``: its options and refusals; tests of the window itself are in tests/sim/window."""
 
 import re
 import sys

@@ -1,4 +1,4 @@
-"""``mc-nested reproduce``, tiny: its files, that they are the same however it went, and what it refuses."""
+"""``mc-nested reproduce`` with tiny sizes: its files, the same after every stop, and its refusals."""
 
 import contextlib
 import json

@@ -1,4 +1,4 @@
-"""``mc-nested runs``: what it lists, renames and deletes, and what it leaves alone."""
+"""``mc-nested runs`` lists, shows, renames and deletes runs, and leaves other folders alone."""
 
 import json
 import os

@@ -16,7 +16,7 @@ from tests.learn.made_experiments import run_config
 
 
 class OneArena:
-    """What a view sees of a game that plays elsewhere."""
+    """The arena of a game that plays elsewhere, as a view sees it."""
 
     def cell(self, run: int) -> Cell:  # noqa: ARG002 - there is one
         return BENT.start

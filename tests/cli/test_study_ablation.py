@@ -1,4 +1,4 @@
-"""``mc-nested study ablation``: its folder, its files, and what it refuses."""
+"""``mc-nested study ablation``: its folder, its files, and a resume."""
 
 import json
 from pathlib import Path

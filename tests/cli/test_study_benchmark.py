@@ -1,4 +1,4 @@
-"""``mc-nested study benchmark``, tiny: its files, that they are the same however it went, and what it refuses."""
+"""``mc-nested study benchmark`` with tiny sizes: its files, the same for any processes, and its refusals."""
 
 import json
 import re

@@ -1,4 +1,4 @@
-"""``mc-nested reproduce --beyond``: its folder, its files, going on, and what it refuses."""
+"""``mc-nested reproduce --beyond``: its folder, its files, a resume, and its refusals."""
 
 import json
 from dataclasses import replace

@@ -1,4 +1,4 @@
-"""``mc-nested reproduce --robustness``: its folder, its files, going on, and what it refuses."""
+"""``mc-nested reproduce --robustness``: its folder, its files, and a resume."""
 
 import json
 from pathlib import Path

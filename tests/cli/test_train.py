@@ -1,4 +1,4 @@
-"""``mc-nested train``: what it leaves behind, begins from and resumes, and what it refuses."""
+"""``mc-nested train``: its files, a start from another run, a resume, and its refusals."""
 
 import json
 import os

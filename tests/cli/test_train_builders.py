@@ -1,4 +1,4 @@
-"""``mc-nested train --builders``: what it leaves behind, that it goes on after a stop, and what it refuses."""
+"""``mc-nested train --builders``: its files, a resume after a stop, and its refusals."""
 
 import json
 import signal

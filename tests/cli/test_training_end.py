@@ -1,4 +1,4 @@
-"""What a training says at its end: lines that can be typed as they are."""
+"""The words at a training's end: next commands that can be typed as they are."""
 
 import sys
 from pathlib import Path

@@ -1,4 +1,4 @@
-"""What a training shows of itself."""
+"""The status that a training shows in the view: its curve, its arena and its progress."""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-"""What the pages tell a reader to do: their commands, snippets and files, in the order of the page.
+"""The steps that the pages tell a reader to do: commands, snippets and files, in the order of the page.
 
 A block of ``bash`` holds commands, a line each. A block of ``text`` behind them in their section is what they print:
 its lines come in this order, others between them, and ``…`` stands for whatever varies. A block of ``python`` is a

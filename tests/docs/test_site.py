@@ -26,7 +26,7 @@ FETCHED = {"script": "src", "img": "src", "link": "href", "iframe": "src", "sour
 
 @dataclass
 class Page:
-    """What a page holds: the targets of its links and of what it loads, its anchors, and its text."""
+    """The content of a page: the targets of its links, the files that it loads, its anchors, and its text."""
 
     links: list[str] = field(default_factory=list)
     loaded: list[str] = field(default_factory=list)

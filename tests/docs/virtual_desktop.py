@@ -1,4 +1,4 @@
-"""A program: a desktop whose one window is the virtual client's, on which ``mc-nested`` is run as a person types it.
+"""A program: runs ``mc-nested`` as a person types it, on a desktop whose one window is the virtual client's.
 
 Reads a request a line, a JSON object: ``words`` of a command; ``script``, one of this project's and its words;
 ``snippet``, a Python program; or ``screenshot``, a file to write. Answers each in a line: ``code``, the exit code, and

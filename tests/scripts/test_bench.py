@@ -1,4 +1,4 @@
-"""What every bench has in common: its options, its figures as a table or as JSON, and how it ends."""
+"""All benches have options, print their figures as a table or as JSON, and set an exit code."""
 
 import importlib
 import io

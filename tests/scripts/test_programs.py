@@ -1,4 +1,4 @@
-"""What is installed, with a stand-in for apt-get on the PATH; and that a second run waits for the first."""
+"""Missing programs are installed, by a stand-in for apt-get on the PATH; a second run waits for the first."""
 
 import os
 import subprocess

@@ -1,4 +1,4 @@
-"""What is fetched, and what is refused, with stand-ins for npm and node on the PATH."""
+"""The stand-in's packages are fetched or refused, with stand-ins for npm and node on the PATH."""
 
 import base64
 import hashlib

@@ -1,4 +1,4 @@
-"""scripts/test.py: what it says, that it goes on after a failure, and that what it runs is there."""
+"""scripts/test.py: its announcement, its table, and its going on after a failure."""
 
 import os
 import signal

@@ -1,4 +1,4 @@
-"""Programs that outlive who started them are ended, and those that don't listen are killed."""
+"""Programs left behind by others are ended, and those that ignore the request are killed."""
 
 import subprocess
 import sys

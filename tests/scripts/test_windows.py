@@ -1,4 +1,4 @@
-"""The command; and what runs under Wine: the tests are there, those of every module that asks for the system, too."""
+"""scripts/windows.py: its refusals, and its list of tests for Windows, which is complete."""
 
 import os
 import re

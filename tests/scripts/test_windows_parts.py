@@ -1,4 +1,4 @@
-"""What is fetched for Windows is pinned, by the versions that were tested, and nothing else is taken."""
+"""The packages for Windows are pinned to tested versions and hashes, and nothing else is fetched."""
 
 import hashlib
 import io

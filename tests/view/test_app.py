@@ -1,4 +1,4 @@
-"""The screens, as text, at the sizes that people have; and what its keys do."""
+"""The view's screens, as text, at the usual terminal sizes; and its keys."""
 
 import asyncio
 from collections.abc import Awaitable, Callable
@@ -164,7 +164,7 @@ def test_view_shows_a_status_that_is_published_while_it_is_open(live: Path) -> N
 
 
 class Heard(NamedTuple):
-    """What a run was asked."""
+    """The requests that a run has received."""
 
     pause: bool
     stop: bool

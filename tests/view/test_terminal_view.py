@@ -1,4 +1,4 @@
-"""``--view`` in a real terminal: what it shows, its keys, and that the terminal is as it was before afterwards."""
+"""``--view`` in a real terminal: its screen, its keys, and a terminal that is restored afterwards."""
 
 import os
 import signal

@@ -1,4 +1,4 @@
-"""What the Windows desktop's own code does with a GLFW window, as one JSON object. For a Windows Python.
+"""Prints, as one JSON object, how the Windows desktop's code works on a GLFW window. For a Windows Python.
 
 usage: desktop_probe.py. A program of its own, since it runs under Wine; the parts that are the same on every system are
 in window_probe.py (tests/live/desktop/real_windows).

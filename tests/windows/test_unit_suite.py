@@ -1,4 +1,4 @@
-"""The unit tests of what differs on Windows (scripts/windows.py), by a Windows Python under Wine."""
+"""The unit tests of code that differs on Windows (scripts/windows.py), by a Windows Python under Wine."""
 
 from pathlib import Path
 
@@ -17,7 +17,7 @@ FEWEST = 1250
 
 
 class Results:
-    """What pytest said under Wine: each test's module with its failure, None where it passed."""
+    """The results of pytest under Wine: each test's module with its failure, None where it passed."""
 
     def __init__(self, code: int, printed: str, report: Path) -> None:
         self.code = code

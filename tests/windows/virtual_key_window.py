@@ -1,4 +1,4 @@
-"""A window of Windows' own that notes the virtual keys that reach it, which LWJGL 2 goes by. For a Windows Python.
+"""A Windows window that notes the virtual keys that reach it, as LWJGL 2 sees them. For a Windows Python.
 
 usage: virtual_key_window.py PORT TITLE, as window_server.py has it. A key is the number of its virtual key, left and
 right told apart, as LWJGL 2 does (its WindowsDisplay).

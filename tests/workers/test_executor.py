@@ -1,4 +1,4 @@
-"""The loop over an experiment's jobs, with an executor whose futures the test holds in its hands."""
+"""The loop over an experiment's jobs, with an executor whose futures the test sets."""
 
 from collections.abc import Callable
 from concurrent.futures import Future
@@ -16,7 +16,7 @@ JOBS = [(JOB, Path("a")), (JOB, Path("b"))]
 
 
 class MadeExecutor:
-    """Ends jobs as ``act`` does, called at every look."""
+    """Calls ``act``, which ends jobs, at every look."""
 
     def __init__(self, act: Callable[["MadeExecutor"], None]) -> None:
         self.futures: list[Future[JobEnded]] = []

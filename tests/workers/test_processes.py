@@ -1,4 +1,4 @@
-"""Processes of a study: which job each gets, and what the others keep of one that fails, is lost or is stopped.
+"""Processes of a study: each gets jobs, and all save theirs if one fails, is lost or is stopped.
 
 The processes are threads here, at the ends of real pipes, and train nothing.
 """
@@ -47,7 +47,7 @@ class KeptEnd:
 
 
 class ThreadProcess:
-    """A process that is a thread; what it saw of its surroundings at its start."""
+    """A process that is a thread; it keeps what it saw of its surroundings at its start."""
 
     def __init__(self, target: Callable[[Connection], int], args: tuple[KeptEnd], daemon: bool) -> None:
         assert daemon
@@ -81,7 +81,7 @@ class ThreadProcess:
 
 
 class Workers:
-    """What the processes do with each job, by its name; a job without an act is finished at once."""
+    """The acts of the processes on each job, by its name; a job without an act is finished at once."""
 
     def __init__(self, monkeypatch: pytest.MonkeyPatch) -> None:
         self.acts: dict[str, Act] = {}

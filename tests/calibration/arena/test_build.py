@@ -1,4 +1,4 @@
-"""Building the arena on the virtual client: what is asked, what is touched, what is built, and put back.
+"""Building the arena on the virtual client: the question, the commands, the copy of the ground, and undo.
 
 The question before an arena is built, and the summary after it.
 """
@@ -352,7 +352,7 @@ def test_copy_note_is_written_before_anything_is_built(tmp_path: Path, monkeypat
 
 
 def left_early(client: VirtualClient, folder: Path) -> tuple[Profile, Path]:
-    """Build an arena of which only the note knows; return a profile without it, and the profile's file, which isn't there."""
+    """Build an arena that only its note knows; return a profile without it, and the profile's missing file."""
     file = folder / "new.toml"
     build_in(client, profile_of(client, folder), path=file)
     return profile_of(client, folder), file

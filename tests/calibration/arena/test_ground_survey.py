@@ -1,4 +1,4 @@
-"""The survey of the ground: free, flat, where a copy can lie, and what stays unknown.
+"""The survey of the ground: whether it is free and flat, and where in the sky its copy can lie.
 
 Questions about blocks: the command of each, and what each answer means.
 

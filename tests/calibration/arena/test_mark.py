@@ -1,4 +1,4 @@
-"""Marking the arena: where the corner lies for every position and facing, what is asked, and what leaves no trace.
+"""Marking the arena: its corner for every position and facing, the question, and refusals that write nothing.
 
 The debug screen's own reading is tested in tests/live; here one is drawn with a made-up font, as a game would show it.
 """

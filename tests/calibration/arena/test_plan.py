@@ -1,4 +1,4 @@
-"""What an arena is built of: boxes and commands by hand, and that nothing lies where it must not."""
+"""The plan of an arena: its border, its floor, the place of its copy, and the commands that build it."""
 
 import itertools
 

@@ -1,4 +1,4 @@
-"""Undoing an arena, as the verb does it: what has to be known before a window is opened.
+"""Undoing an arena: the verb, the note of a copy, and the hint in an error.
 
 The note of a copy: written before anything is built, removed once the profile knows the same.
 """

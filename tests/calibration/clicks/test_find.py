@@ -1,4 +1,4 @@
-"""The walk through the menus, on virtual clients of every version: what is found, where, and that it comes back.
+"""The click points, found on virtual clients of every version or recorded by hand, and written.
 
 Recording clicks by hand: what a hotkey records, what is refused, the picture, and what leaves no trace.
 """
@@ -265,7 +265,7 @@ LARGE_SCREEN = np.random.default_rng(0).integers(0, 256, (2160, 3840, 3), np.uin
 
 @dataclass
 class Player:
-    """Somebody at the game: each key press finds the mouse and the window as one of ``doings`` says."""
+    """A person at the game: at each key press, mouse and window are as one of ``doings`` says."""
 
     doings: list[tuple[str, tuple[int, int], bool]]
     window: tuple[int, int] = (400, 300)

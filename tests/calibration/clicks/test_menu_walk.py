@@ -1,4 +1,4 @@
-"""The walk itself: what it records of each menu, what it notes, and that it ends in the world."""
+"""The walk through the menus: it records points, notes missing labels, and ends in the world."""
 
 from pathlib import Path
 

@@ -1,4 +1,4 @@
-"""The doctor at work on a virtual client, in a computer that is a folder of the test's own."""
+"""The doctor at work on a virtual client, with a temporary folder as its computer."""
 
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import AbstractContextManager, contextmanager

@@ -1,4 +1,4 @@
-"""The row of debug-profile.json, by the version that is installed and by what was seen."""
+"""The row of debug-profile.json: the installed version's entries, and those that were seen on the screen."""
 
 from pathlib import Path
 

@@ -1,4 +1,4 @@
-"""The debug screen's checks, by what the window shows.
+"""The checks of the debug screen and of the window, for each content of the window.
 
 Pictures in which nothing can be read: black ones, and ones of other colours.
 

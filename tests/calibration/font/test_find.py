@@ -1,4 +1,4 @@
-"""The game's own font, found on the screen of virtual clients among jars, packs and wrong ones.
+"""The game's font is found on the screen of virtual clients, among jars, packs and wrong fonts.
 
 Why no font reads the screen, from frames painted for the test.
 """

@@ -1,4 +1,4 @@
-"""The debug screen read back: every line, whatever is behind it; and what is unknown drawn in red."""
+"""The debug screen is read back line by line on any background, and unknown glyphs are drawn in red."""
 
 import numpy as np
 import pytest

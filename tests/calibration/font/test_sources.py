@@ -1,4 +1,4 @@
-"""Where fonts are looked for: packs that are switched on, the topmost first, then jars, the version's own first.
+"""The order in which fonts are tried: active packs, the topmost first, then the version's own jar, then others.
 
 The font of a recording that comes from another computer.
 """

@@ -1,4 +1,4 @@
-"""debug-profile.json: what it says in each version, and how it is mended."""
+"""debug-profile.json is read in every version's form, and mended."""
 
 import json
 import zipfile

@@ -1,4 +1,4 @@
-"""Which games run where: by command line or working folder; what is unknown never counts as closed."""
+"""Running games and their folders, by command line or working folder; an unknown state never counts as closed."""
 
 import os
 import shutil

@@ -1,4 +1,4 @@
-"""What is kept beside a profile: read back as it was, the newest of each step, without files that no entry names."""
+"""The findings beside a profile are read back unchanged; each step keeps its newest, and no unused file stays."""
 
 from pathlib import Path
 

@@ -1,4 +1,4 @@
-"""The report: one document that fetches nothing, names nobody, shows what it says it shows, and escapes the rest."""
+"""The report is one document that fetches nothing, names no user, has its listed contents, and escapes all text."""
 
 import base64
 import dataclasses
@@ -42,7 +42,7 @@ VOID = {"meta", "img", "br", "link", "input", "hr"}
 
 
 class Page(HTMLParser):
-    """What a browser would see: tags with their attributes, texts, and that every tag is closed."""
+    """The document as a browser sees it: tags with their attributes, texts, and the tags that are still open."""
 
     def __init__(self, html: str) -> None:
         super().__init__()

@@ -1,4 +1,4 @@
-"""No home folder and no user name in what others will read."""
+"""Home folders and user names are removed from texts that others will read."""
 
 import re
 from pathlib import Path

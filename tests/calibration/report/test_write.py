@@ -1,4 +1,4 @@
-"""``mc-nested calibrate report``: the file, the list of what is in it, and one line where it can't be made."""
+"""``mc-nested calibrate report`` writes the report and prints its contents; mistakes are refused in one line."""
 
 from pathlib import Path
 

@@ -1,4 +1,4 @@
-"""Fitting a gait's model: paths by hand, other physics found again, what is no hold of whole ticks left out."""
+"""A gait's model is fitted to holds: known paths, other floors and speeds, and outliers that are left out."""
 
 import numpy as np
 import pytest

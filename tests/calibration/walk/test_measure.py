@@ -1,4 +1,4 @@
-"""Measuring the walk on the virtual client: its own physics are found, and whatever happens nothing is lost."""
+"""The walk is measured on the virtual client: it finds the client's physics, and no mishap spoils the profile."""
 
 from collections.abc import Callable
 from pathlib import Path

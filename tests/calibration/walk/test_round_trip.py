@@ -1,4 +1,4 @@
-"""The round trip from a key to the screen, from holds whose every time is known."""
+"""The round trip from a key to the screen, estimated from holds with known times."""
 
 import math
 

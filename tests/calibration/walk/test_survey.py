@@ -1,4 +1,4 @@
-"""Survey holds: what one hold says about its direction, its sideways drift and its timing.
+"""Survey holds: each hold's direction, sideways drift and timing, and the keys that follow from them.
 
 Which key goes which way, from where a step with each of them ended.
 """

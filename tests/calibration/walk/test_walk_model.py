@@ -1,4 +1,4 @@
-"""WalkModel: what synthetic holds of known push, inertia and latency are fitted to, and what is refused.
+"""WalkModel: the fit of push, inertia and latency to synthetic holds, and holds that are refused.
 
 The line through holds that fit no ticks: what it says, and when there is none.
 """

@@ -1,4 +1,4 @@
-"""Walker: what a hold's record holds, when it ends early, and what is not recorded but an error."""
+"""Walker: the record of a hold, its early end, and errors during it."""
 
 import pytest
 

@@ -1,4 +1,4 @@
-"""The benchmark of trainings from scratch: what it waits for, what it holds against the world, what it calls wrong."""
+"""The benchmark of trainings from scratch: its clocks, its comparison with the world, and its wrong counts."""
 
 import dataclasses
 from collections.abc import Callable

@@ -1,4 +1,4 @@
-"""Random actions against a live game: which are drawn, and what their counts hold against a client's world."""
+"""Random actions against a live game: which are drawn, and how they are compared with the client's world."""
 
 import dataclasses
 from collections.abc import Callable

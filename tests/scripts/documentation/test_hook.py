@@ -1,4 +1,4 @@
-"""What MkDocs asks of the hook: pages that are made, links between the project's files, and tables that can be read."""
+"""The hook of MkDocs: generated parts of pages, links between the project's files, and code in tables."""
 
 import pytest
 from mkdocs.exceptions import PluginError

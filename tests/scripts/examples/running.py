@@ -1,4 +1,4 @@
-"""Runs an example as its reader does: by its file, in a folder of one's own, with warnings as errors."""
+"""Runs an example as its reader does: by its file, in an empty folder, with warnings as errors."""
 
 import os
 import subprocess

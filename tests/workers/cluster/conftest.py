@@ -1,4 +1,4 @@
-"""A real Dask scheduler with a real worker, each a process of its own."""
+"""A real Dask scheduler with a real worker, in separate processes."""
 
 from collections.abc import Iterator
 

@@ -1,4 +1,4 @@
-"""Which workers of a cluster train what, by its scheduler's events."""
+"""The workers of a cluster and the jobs that they train, by the scheduler's events."""
 
 from mc_nested.workers.cluster.cluster_workers import ClusterWorkers
 

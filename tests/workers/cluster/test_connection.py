@@ -1,4 +1,4 @@
-"""A real scheduler lets in who has its authority's certificate, and nobody else."""
+"""A real scheduler lets in machines with a certificate of its authority, and no others."""
 
 import socket
 import ssl

@@ -1,4 +1,4 @@
-"""Jobs on a real Dask worker: the same outcome as here, taken once, whatever becomes of the workers."""
+"""Jobs on a real Dask worker: their outcome is the same as here, even if workers are lost."""
 
 import dataclasses
 import time
@@ -44,7 +44,7 @@ def client(cluster: SchedulerAddress) -> Iterator[Client]:
 
 
 class Heard:
-    """What is heard of the jobs; stops them once ``until`` says so."""
+    """Collects the messages of the jobs; stops them once ``until`` says so."""
 
     def __init__(self) -> None:
         self.messages: list[JobReport | JobEnded] = []
@@ -217,7 +217,7 @@ def test_scheduler_that_is_killed_ends_the_jobs_with_an_error(tmp_path: Path, mo
 
 
 class LosingExecutor:
-    """Loses each job with its workers, as a scheduler says it."""
+    """Loses each job with its workers, as a scheduler reports it."""
 
     def __init__(self) -> None:
         self.tried = 0

@@ -1,4 +1,4 @@
-"""A job on a cluster's worker, there and back, and what is said of one that went wrong.
+"""A job's task on a cluster's worker: its files there and back, and the words of its errors.
 
 A Dask worker runs in this process, so that its folder can be looked at.
 """

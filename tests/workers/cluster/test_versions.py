@@ -1,4 +1,4 @@
-"""What has to be the same on both ends, and how a difference is said."""
+"""The versions that have to be the same on both ends, and the words about a difference."""
 
 from pathlib import Path
 

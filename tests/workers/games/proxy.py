@@ -17,7 +17,7 @@ class Proxy:
 
     @property
     def address(self) -> str:
-        """Where it listens."""
+        """The address at which it listens."""
         return f"tcp://127.0.0.1:{self._listening.getsockname()[1]}"
 
     def cut(self) -> None:

@@ -1,4 +1,4 @@
-"""The main thread of a served game: what it plays, what it says of a mishap, and when it ends."""
+"""The main thread of a served game: the episodes that it plays, its answers after mishaps, and its end."""
 
 from collections.abc import Callable, Iterator
 from concurrent.futures import Future
