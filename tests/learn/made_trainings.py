@@ -41,7 +41,7 @@ class StartsOver(GridGame):
 
 
 class Slips(GridVectorEnv):
-    """A share of the actions are others."""
+    """Arenas in which a share of the actions is replaced by others."""
 
     def __init__(self, scenarios: Sequence[Scenario], share: float, seed: int) -> None:
         super().__init__(scenarios)
