@@ -1,4 +1,4 @@
-"""A training through the live path, on the virtual client: as in the simulator, and resumed in another window."""
+"""A training through the live path, on the virtual client: as in the simulator, and resumed from a saved state."""
 
 import pytest
 

@@ -1,4 +1,4 @@
-"""What every Env of an arena must do, whatever game is behind it; test_env_contract checks that wrong Envs fail it."""
+"""The contract of every Env, whatever game is behind it; test_env_contract checks that wrong Envs fail it."""
 
 from collections.abc import Sequence
 from typing import Any

@@ -1,4 +1,4 @@
-"""What every Game must do, whatever is behind it; test_game_contract checks that wrong Games fail it."""
+"""The contract of every Game, whatever is behind it; test_game_contract checks that wrong Games fail it."""
 
 from collections.abc import Callable, Sequence
 

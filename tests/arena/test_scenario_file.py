@@ -97,7 +97,7 @@ def test_a_scenario_is_read_back_from_its_table_unchanged(size: int, worth: list
 
 
 def check_refused(text: str, says: str) -> None:
-    """Raise AssertionError unless that scenario file is refused in one line, which begins with its name and says so."""
+    """Raise AssertionError unless that scenario file is refused in one line with its name and ``says``."""
     with pytest.raises(ScenarioError) as caught:
         parse_scenario(text, "dot.toml")
     assert str(caught.value).startswith("dot.toml: ")

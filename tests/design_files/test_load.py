@@ -35,7 +35,7 @@ def names_in(volume: Volume) -> list[str]:
 
 
 def names_of(drawing: Drawing, name: str) -> list[str]:
-    """Return what the reader of a file of that name calls the drawing's blocks."""
+    """Return the names of the drawing's blocks, as the reader of a file of that name gives them."""
     others = {"c": "block number 300"} if name.startswith("mcedit") else {}
     return [{**NAMES, **others}[character] for character in cells(drawing)]
 

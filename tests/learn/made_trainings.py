@@ -1,4 +1,4 @@
-"""What tests of trainings share: a short preset, games that fail or slip, and how two trainings are compared."""
+"""Helpers for tests of trainings: a short preset, games that fail or slip, and a comparison of two trainings."""
 
 from collections.abc import Sequence
 from typing import Any

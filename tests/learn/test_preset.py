@@ -62,7 +62,7 @@ def test_a_mistake_is_refused_with_the_file_and_the_key(change: tuple[str, str],
 
 
 def check_refused(text: str, change: tuple[str, str], says: str) -> None:
-    """Raise AssertionError unless that preset, with this change, is refused in one line which says so."""
+    """Raise AssertionError unless that preset, with this change, is refused in one line that holds ``says``."""
     assert change[0] in text
     with pytest.raises(PresetError) as caught:
         parse_preset(text.replace(*change, 1), "mine.toml")

@@ -1,4 +1,4 @@
-"""What a list of runs says of each folder, in any state."""
+"""Facts that a list of runs shows of each folder, in any state."""
 
 import json
 import shutil

@@ -1,4 +1,4 @@
-"""A learner with several games: what counts and what doesn't, how their episodes differ, and when it is finished."""
+"""A learner with several games: which episodes count, how they differ, and when the run is finished."""
 
 import itertools
 from dataclasses import replace

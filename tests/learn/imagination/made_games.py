@@ -61,7 +61,7 @@ class Plain:
 
 
 class MadeUpGame(Plain):
-    """A game with rules of its own: where each action leads, which place a block, and where that lands."""
+    """A game with its own rules: where each action leads, which place a block, and where that lands."""
 
     def __init__(self, moves: Sequence[Cell], places: Sequence[bool], lands: Cell, scenario: Scenario) -> None:
         self._moves, self._places, self._lands = moves, places, lands

@@ -1,4 +1,4 @@
-"""The learnt game's step: edges, blocks, and where a block lands, as in the real rules; what an episode should do."""
+"""The learnt game's step: edges, blocks and landings as in the real rules; and the landings expected of an episode."""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-"""What a run remembers of its game: transitions by episode, what materials brought, and no more than is recent."""
+"""A run's memory of its game: transitions by episode, scores that materials brought, and recent episodes alone."""
 
 import numpy as np
 import pytest

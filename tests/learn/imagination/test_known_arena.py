@@ -1,4 +1,4 @@
-"""What a run knows of its arena: where the blocks of each real episode went, and what was built last."""
+"""A run's knowledge of its arena: where the blocks of each real episode went, and which cells were built last."""
 
 import numpy as np
 
