@@ -1,4 +1,4 @@
-"""What several folders of tests share."""
+"""Fixtures and settings that several folders of tests share."""
 
 import os
 import signal

@@ -1,4 +1,4 @@
-"""What Dask leaves for the garbage collector: sockets of connections that were cut or refused, never closed by hand."""
+"""Sockets that Dask leaves for the garbage collector: of connections that were cut or refused, never closed by hand."""
 
 import gc
 import warnings

@@ -1,4 +1,4 @@
-"""What a machine may lack: a test that needs it is skipped there, and says how to get it; with CI set, it fails."""
+"""Skip a test on a machine that lacks what it needs, and say how to get that; with CI set, fail it."""
 
 import os
 from collections.abc import Callable
@@ -12,7 +12,7 @@ Found = TypeVar("Found")
 
 
 def found_or_skipped(find: Callable[[], Found]) -> Found:
-    """Return what was found."""
+    """Return what ``find`` finds; where that is missing, skip the test, or fail it with CI set."""
     try:
         return find()
     except MissingError as error:

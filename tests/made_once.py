@@ -1,4 +1,4 @@
-"""What is made once for a whole run of tests, whichever of xdist's processes asks for it first."""
+"""Folders made once for a whole run of tests, by whichever of xdist's processes asks first."""
 
 import os
 import shutil

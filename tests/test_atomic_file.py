@@ -56,7 +56,7 @@ def test_the_file_is_on_the_disk_before_it_replaces_the_old_one(
     assert seen == [(6, "old")]
 
 
-def test_what_a_killed_process_left_is_recognised_and_removed(tmp_path: Path) -> None:
+def test_files_left_by_a_killed_process_are_recognised_and_removed(tmp_path: Path) -> None:
     kept = tmp_path / "state.npz"
     kept.write_text("whole")
     with atomic_write(kept) as unfinished:

@@ -77,7 +77,7 @@ def test_a_function_is_compiled_once_and_again_when_another_file_has_changed(cop
 
 
 @pytest.mark.slow
-def test_an_update_is_computed_by_the_adam_that_stands_in_the_file(copy: Path) -> None:
+def test_a_changed_adam_source_changes_the_computed_update(copy: Path) -> None:
     before = run(copy, UPDATES)
     assert run(copy, UPDATES) == before
     adam = copy / "learn/dqn/compiled_engine/adam.py"
@@ -87,7 +87,7 @@ def test_an_update_is_computed_by_the_adam_that_stands_in_the_file(copy: Path) -
     assert after == run(copy, UPDATES, "another cache")
 
 
-def test_a_fingerprint_follows_every_file_that_is_imported(tmp_path: Path) -> None:
+def test_a_fingerprint_changes_with_every_imported_file(tmp_path: Path) -> None:
     def fingerprint() -> str:
         fingerprint_of.cache_clear()
         return fingerprint_of(tmp_path / "made/a.py", tmp_path, "made")
@@ -110,7 +110,7 @@ def test_a_fingerprint_follows_every_file_that_is_imported(tmp_path: Path) -> No
     assert fingerprint() in seen
 
 
-def test_packages_that_are_installed_beside_it_do_not_count(tmp_path: Path) -> None:
+def test_packages_installed_beside_the_project_do_not_count(tmp_path: Path) -> None:
     for package, text in (("made", "import numba\nfrom numba import njit\n"), ("numba", "njit = 1\n")):
         (tmp_path / package).mkdir()
         (tmp_path / package / "__init__.py").write_text(text)
@@ -119,7 +119,7 @@ def test_packages_that_are_installed_beside_it_do_not_count(tmp_path: Path) -> N
     assert _imported_by(source, tmp_path, "numba") == {tmp_path / "numba/__init__.py"}
 
 
-def test_an_update_needs_adam_but_not_the_trainer() -> None:
+def test_the_engines_imports_include_adam_but_not_the_trainer() -> None:
     needed: set[Path] = set()
     new = {ROOT / "mc_nested/learn/dqn/compiled_engine/engine.py"}
     while new:
@@ -135,7 +135,7 @@ def test_nothing_is_compiled_by_numbas_own_decorator() -> None:
     assert [path.name for path in used] == ["compiled.py"]
 
 
-def test_a_compiled_function_takes_the_flags_of_its_own() -> None:
+def test_a_compiled_function_takes_its_own_flags() -> None:
     @compiled(fused=True, nogil=True)
     def doubled(values: np.ndarray) -> np.ndarray:
         return values * 2
@@ -165,7 +165,7 @@ print(both(Pair(1.0, 2.0)), sum(both.stats.cache_hits.values()))
 """
 
 
-def test_what_was_compiled_for_a_class_whose_file_was_renamed_is_compiled_again(copy: Path) -> None:
+def test_a_function_is_compiled_again_after_the_file_of_its_arguments_class_was_renamed(copy: Path) -> None:
     (copy / "learn" / "pair.py").write_text(PAIR)
     assert [run(copy, SUM.format(module="pair")) for _ in range(2)] == ["3.0 0", "3.0 1"]
     (copy / "learn" / "pair.py").rename(copy / "learn" / "two.py")

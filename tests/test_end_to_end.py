@@ -31,7 +31,7 @@ def completed(*arguments: str | Path, env: Mapping[str, str] = os.environ) -> su
 
 
 def mc_nested(*arguments: str | Path, env: Mapping[str, str] = os.environ) -> str:
-    """Return what the command prints, as ``completed``."""
+    """Run the command as ``completed`` does, and return what it prints."""
     return completed(*arguments, env=env).stdout
 
 

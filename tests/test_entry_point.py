@@ -1,4 +1,4 @@
-"""What gymnasium.make and make_vec make: the Env over the simulator, and over a live game on the virtual client."""
+"""The Envs of gymnasium.make and make_vec: over the simulator, and over a live game on the virtual client."""
 
 import gc
 import subprocess
@@ -79,7 +79,7 @@ def test_a_live_env_keeps_the_contract_and_gymnasiums_checker_passes(tmp_path: P
     assert client.window.strays == []
 
 
-def test_a_live_env_builds_in_the_window_and_draws_what_stands(tmp_path: Path) -> None:
+def test_a_live_env_builds_in_the_window_and_draws_the_placed_blocks(tmp_path: Path) -> None:
     client = VirtualClient()
     env = live_env(client, tmp_path, scenario="line", render_mode="rgb_array")
     env.reset(options={"material": "stone"})
@@ -121,7 +121,7 @@ def test_a_live_env_keeps_a_recording_that_replays(tmp_path: Path) -> None:
         live_env(VirtualClient(), tmp_path, record=kept)
 
 
-def test_a_live_env_passes_on_what_it_is_asked_for() -> None:
+def test_make_passes_the_scenario_the_profile_and_server_allowed_to_the_live_game() -> None:
     game = Opened()
     env = gymnasium.make(
         ID, scenario="diamond", backend="live", profile="mine", server_allowed=True, open_live=game.open
@@ -130,7 +130,7 @@ def test_a_live_env_passes_on_what_it_is_asked_for() -> None:
     env.close()
 
 
-def test_closing_closes_the_game_and_a_second_time_does_nothing() -> None:
+def test_closing_an_env_closes_its_game_and_closing_again_does_nothing() -> None:
     game = Opened()
     env = gymnasium.make(ID, backend="live", open_live=game.open)
     env.reset()
@@ -150,7 +150,7 @@ def test_an_env_that_is_dropped_closes_its_game() -> None:
     assert not game.is_open
 
 
-def test_an_env_that_nobody_closed_is_closed_as_the_program_ends() -> None:
+def test_an_env_left_open_is_closed_when_the_program_ends() -> None:
     program = (
         # Registered before anything else, it is asked after all that others have registered.
         "import atexit; atexit.register(lambda: print('open' if game.is_open else 'closed'))\n"
@@ -170,7 +170,7 @@ def test_an_env_that_nobody_closed_is_closed_as_the_program_ends() -> None:
         ({"backend": "live", "profile": "nobody"}, ProfileError, "no profile"),
     ],
 )
-def test_what_can_not_be_made_is_one_line(
+def test_invalid_options_of_make_are_refused_in_one_line(
     make: Callable[..., object], options: dict[str, str], error: type[Exception], says: str
 ) -> None:
     with pytest.raises(error, match=says) as caught:
@@ -184,7 +184,7 @@ def hut(tmp_path: Path) -> Path:
     return tmp_path / "hut.schem"
 
 
-def test_a_layer_of_a_design_file_is_built(hut: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_make_takes_a_layer_of_a_design_file(hut: Path, capsys: pytest.CaptureFixture[str]) -> None:
     env = gymnasium.make(ID, scenario=str(hut), layer=2)
     scenario = env.get_wrapper_attr("scenario")
     assert (scenario.name, env.reset()[0].tolist()) == ("hut-2", [7, 14, 2])
@@ -194,7 +194,7 @@ def test_a_layer_of_a_design_file_is_built(hut: Path, capsys: pytest.CaptureFixt
     assert capsys.readouterr().err == ""
 
 
-def test_without_a_layer_it_is_the_lowest_with_blocks_and_a_line_says_so(
+def test_the_lowest_layer_with_blocks_is_taken_and_reported_if_none_is_named(
     hut: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     assert gymnasium.make(ID, scenario=hut).get_wrapper_attr("scenario").name == "hut-0"
@@ -204,13 +204,13 @@ def test_without_a_layer_it_is_the_lowest_with_blocks_and_a_line_says_so(
     ]
 
 
-def test_a_picture_is_a_design_too(tmp_path: Path) -> None:
+def test_make_takes_a_picture_as_a_design(tmp_path: Path) -> None:
     (tmp_path / "dot.png").write_bytes(picture(HUT[0]))
     assert gymnasium.make(ID, scenario=tmp_path / "dot.png").get_wrapper_attr("scenario").name == "dot"
 
 
 @pytest.mark.parametrize("mode", [None, "sync"])
-def test_every_mode_takes_a_design_file(mode: str | None, hut: Path) -> None:
+def test_every_vectorization_mode_takes_a_design_file(mode: str | None, hut: Path) -> None:
     envs = gymnasium.make_vec(ID, num_envs=2, vectorization_mode=mode, scenario=hut, layer=1)
     assert envs.reset()[0].tolist() == [[7, 14, 6]] * 2
 
@@ -233,7 +233,7 @@ def test_a_live_game_takes_a_design_file(make: Callable[..., Any], hut: Path) ->
         (LINE, 0, "line is a Scenario, which has one layer: leave out layer="),
     ],
 )
-def test_a_design_file_or_layer_that_can_not_be_used_is_one_line(
+def test_an_unusable_design_file_or_layer_is_refused_in_one_line(
     make: Callable[..., object], scenario: Any, layer: int | None, says: str, hut: Path
 ) -> None:
     named = scenario.replace("HUT", str(hut)) if isinstance(scenario, str) else scenario
@@ -242,7 +242,7 @@ def test_a_design_file_or_layer_that_can_not_be_used_is_one_line(
     assert str(caught.value) == says.replace("HUT", str(hut))
 
 
-def test_without_a_mode_gymnasium_makes_arenas_in_arrays_that_reset_by_themselves() -> None:
+def test_make_vec_without_a_mode_makes_arrays_of_arenas_with_autoreset() -> None:
     envs = gymnasium.make_vec(ID, num_envs=3, scenario="diamond")
     assert isinstance(envs.unwrapped, GridVectorEnv)
     assert envs.metadata["autoreset_mode"] is AutoresetMode.NEXT_STEP
@@ -274,7 +274,7 @@ def test_every_mode_of_make_vec_steps_as_single_envs_do(mode: str | None) -> Non
 
 
 @pytest.mark.parametrize("mode", [None, "sync"])
-def test_every_mode_draws_each_arena(mode: str | None) -> None:
+def test_every_vectorization_mode_draws_each_arena(mode: str | None) -> None:
     envs = gymnasium.make_vec(ID, num_envs=2, vectorization_mode=mode, render_mode="rgb_array")
     envs.reset()
     envs.step(np.array([Action.BD, Action.B]))
@@ -299,7 +299,7 @@ def test_autoreset_can_be_turned_off() -> None:
     assert envs.reset(options={"reset_mask": np.array([True, False])})[0].tolist() == [[7, 14, 11], [7, 13, 11]]
 
 
-def test_an_autoreset_mode_that_there_is_not_names_the_way_to_it() -> None:
+def test_an_unsupported_autoreset_mode_is_refused_with_the_way_to_get_it() -> None:
     with pytest.raises(UserError, match='vectorization_mode="sync"'):
         gymnasium.make_vec(ID, num_envs=2, autoreset_mode="SameStep")
     envs = gymnasium.make_vec(ID, num_envs=2, vectorization_mode="sync", vector_kwargs={"autoreset_mode": "SameStep"})
@@ -307,7 +307,7 @@ def test_an_autoreset_mode_that_there_is_not_names_the_way_to_it() -> None:
 
 
 @pytest.mark.parametrize("mode", [None, "sync"])
-def test_a_live_game_is_one_arena_of_a_vector_env_which_closes_it(mode: str | None) -> None:
+def test_a_live_game_runs_as_one_arena_of_a_vector_env_that_closes_the_game(mode: str | None) -> None:
     game = Opened()
     envs: VectorEnv[Any, Any, Any] = gymnasium.make_vec(
         ID, vectorization_mode=mode, scenario="line", backend="live", open_live=game.open
@@ -326,7 +326,7 @@ def test_several_live_arenas_are_refused() -> None:
         gymnasium.make_vec(ID, num_envs=3, backend="live")
 
 
-def test_making_a_simulated_env_loads_nothing_that_reads_a_screen() -> None:
+def test_making_a_simulated_env_imports_neither_torch_nor_code_that_reads_a_screen() -> None:
     program = (
         f"import sys, gymnasium, mc_nested; gymnasium.make('{ID}').reset(); "
         "print([name for name in ('torch', 'cv2', 'mss', 'matplotlib', 'mc_nested.live') if name in sys.modules])"

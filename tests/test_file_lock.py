@@ -33,7 +33,7 @@ def held_elsewhere(path: Path) -> Iterator["subprocess.Popen[str]"]:
         yield process
 
 
-def test_one_process_at_a_time_has_the_lock_and_then_it_is_free(tmp_path: Path) -> None:
+def test_the_lock_is_held_once_at_a_time_and_free_after_the_block(tmp_path: Path) -> None:
     path = tmp_path / "one.lock"
     with file_lock(path) as first:
         assert first == Lock(True, os.getpid())
@@ -99,13 +99,13 @@ def test_opening_waits_while_another_process_removes_the_lock_file(tmp_path: Pat
 
 
 @pytest.mark.skipif(sys.platform != "win32", reason="elsewhere, root may write everywhere")
-def test_a_file_that_may_not_be_opened_is_an_error(tmp_path: Path) -> None:
+def test_a_lock_file_that_can_not_be_opened_raises(tmp_path: Path) -> None:
     (tmp_path / "folder").mkdir()
     with pytest.raises(PermissionError), file_lock(tmp_path / "folder"):
         pass
 
 
-def test_no_two_of_many_processes_have_the_lock_together(tmp_path: Path) -> None:
+def test_no_two_of_many_threads_hold_the_lock_together(tmp_path: Path) -> None:
     path, inside, most, taken = tmp_path / "one.lock", [0], [0], [0]
 
     def take_often() -> None:

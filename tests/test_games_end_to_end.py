@@ -54,7 +54,7 @@ class Window:
     url: str
 
     def keys_down(self) -> list[str]:
-        """Return what is held down, as the window's client has it."""
+        """Return the keys that are held down, as the window's client has them."""
         down: list[str] = self.rehearsal.truth.now()["keys_down"]
         return down
 
@@ -89,7 +89,7 @@ class Window:
 
 
 def wait_until(is_so: Callable[[], bool], otherwise: Callable[[], object] = lambda: "it stays as it is") -> None:
-    """Wait until it comes true, which it must before long."""
+    """Wait until ``is_so`` returns True; fail where that takes too long."""
     end = time.monotonic() + SOON_S
     while not is_so():
         assert time.monotonic() < end, otherwise()
@@ -97,7 +97,7 @@ def wait_until(is_so: Callable[[], bool], otherwise: Callable[[], object] = lamb
 
 
 class Program:
-    """One end in a process of its own, and what it says."""
+    """One end in its own process, and its output."""
 
     def __init__(self, words: list[str], folder: Path, env: dict[str, str]) -> None:
         self._log = folder / f"{words[1].strip('-')}.log"
@@ -107,7 +107,7 @@ class Program:
             self.process = subprocess.Popen(command, cwd=folder, env=env, stdout=log, stderr=log)
 
     def lines(self) -> list[str]:
-        """Return all that it has said."""
+        """Return every line of its output."""
         return self._log.read_text("utf-8").splitlines()
 
     def says(self, *words: str) -> None:
@@ -196,7 +196,7 @@ def stops_and_saves(learner: Program) -> bool:
     return learner.process.poll() is None and learner.end() == 130 and "stopped and saved" in learner.lines()[-1]
 
 
-def test_behind_another_window_a_game_is_paused_and_has_lost_its_episode(window: Window, ends: Ends) -> None:
+def test_a_game_behind_another_window_is_paused_and_loses_its_episode(window: Window, ends: Ends) -> None:
     game, learner = ends.game(), ends.learner()
     game.says("episode 1: score")
     wait_until(window.is_walking)
@@ -239,7 +239,7 @@ def test_the_panic_key_ends_the_game_and_its_learner_waits_for_another(
     assert ends.counted_and_lost() == (played(game), 1)
 
 
-def test_a_scenario_that_the_arena_has_no_room_for_is_one_line_at_both_ends(window: Window, ends: Ends) -> None:
+def test_a_scenario_too_large_for_the_arena_is_refused_in_one_line_at_both_ends(window: Window, ends: Ends) -> None:
     game, learner = ends.game(), ends.learner(WIDE)
     assert (game.process.wait(SOON_S), learner.process.wait(SOON_S)) == (2, 2)
     needs = "scenario wide needs 16 x 16 cells, and the profile's arena has 15 x 15"
@@ -249,7 +249,7 @@ def test_a_scenario_that_the_arena_has_no_room_for_is_one_line_at_both_ends(wind
     assert learner.lines()[1:] == ["pc has joined", f"mc-nested: pc can't play: {says}; {saved}"]
 
 
-def test_a_profile_that_this_computer_does_not_have_is_one_line(ends: Ends) -> None:
+def test_an_unknown_profile_is_refused_in_one_line(ends: Ends) -> None:
     game = ends.game("nobody")
     assert game.process.wait(SOON_S) == 2
     (line,) = game.lines()

@@ -53,7 +53,7 @@ def drawn(scenario: Scenario, actions: list[Action]) -> list[Picture]:
 
 
 def play(env: gymnasium.Env[Any, Any], actions: list[Action]) -> dict[str, Any]:
-    """Return the last step's info."""
+    """Play these actions, and return the last step's info."""
     env.reset()
     info: dict[str, Any] = {}
     for action in actions:
@@ -78,7 +78,7 @@ def test_record_video_films_every_step_of_an_episode(name: str, tmp_path: Path) 
         assert apart[index] == min(apart) < SOFTENED
 
 
-def test_record_video_films_the_episodes_it_is_told_to(tmp_path: Path) -> None:
+def test_record_video_films_only_the_chosen_episode(tmp_path: Path) -> None:
     env = gymnasium.make(ID, render_mode="rgb_array")
     filmed: gymnasium.Env[Any, Any] = RecordVideo(
         env, str(tmp_path / "films"), episode_trigger=lambda episode: episode == 1
@@ -105,7 +105,7 @@ def test_a_vector_of_arenas_is_filmed_side_by_side(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("name", ["line", "zigzag"])
-def test_record_episode_statistics_has_the_return_and_the_length(name: str) -> None:
+def test_record_episode_statistics_reports_the_return_and_the_length(name: str) -> None:
     scenario = load_scenario(name)
     env = RecordEpisodeStatistics(gymnasium.make(ID, scenario=name))
     actions = build(scenario)

@@ -1,4 +1,4 @@
-"""A training through the live path, on the virtual client: as in the simulator, and it goes on after a kill."""
+"""A training through the live path, on the virtual client: as in the simulator, and resumed from a saved state."""
 
 import pytest
 
@@ -35,7 +35,7 @@ def _rows(trainer: Trainer) -> list[EpisodeRow]:
 
 
 @pytest.mark.slow
-def test_episodes_are_the_simulators_step_for_step_and_score_for_score() -> None:
+def test_live_episodes_have_the_simulators_steps_and_scores() -> None:
     client = VirtualClient(seed=5)
     with play(client, LINE) as game:
         live = _rows(_trainer(_live(game)))
@@ -44,7 +44,7 @@ def test_episodes_are_the_simulators_step_for_step_and_score_for_score() -> None
 
 
 @pytest.mark.slow
-def test_after_a_kill_it_goes_on_at_the_next_episode() -> None:
+def test_a_resumed_live_training_goes_on_at_the_next_episode() -> None:
     with play(VirtualClient(seed=6), LINE) as game:
         first = _trainer(_live(game))
         while len(first.episode_rows) < 2 or not first.env_steps % 7:
@@ -60,7 +60,7 @@ def test_after_a_kill_it_goes_on_at_the_next_episode() -> None:
 
 
 @pytest.mark.slow
-def test_an_episode_in_which_a_mishap_happens_is_thrown_away_and_the_training_finishes() -> None:
+def test_a_live_training_drops_episodes_with_mishaps_and_finishes() -> None:
     client = VirtualClient(seed=8)
     client.mishaps.every(0.15)
     failures = 0

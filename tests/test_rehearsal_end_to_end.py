@@ -79,7 +79,7 @@ def profile(calibrated: Calibrated) -> Path:
     return calibrated.profile
 
 
-def test_calibrating_from_nothing_is_done_before_long(calibrated: Calibrated) -> None:
+def test_calibrating_from_nothing_takes_less_than_three_minutes(calibrated: Calibrated) -> None:
     assert calibrated.seconds < LONGEST_CALIBRATION_S
 
 
@@ -119,7 +119,7 @@ def test_a_policy_learnt_in_the_simulator_builds_its_design(
 
 
 @pytest.mark.usefixtures("window_programs")
-def test_the_line_is_learnt_from_nothing_in_the_window_of_a_current_version_and_built(tmp_path: Path) -> None:
+def test_the_line_is_learnt_and_built_in_the_window_of_a_current_version(tmp_path: Path) -> None:
     profile, run, line = tmp_path / "profile.toml", tmp_path / "run", load_scenario("line")
     with open_display() as env, open_rehearsal(env, tmp_path, "--version", CURRENT) as rehearsal:
         calibrate(rehearsal, profile)
@@ -134,7 +134,7 @@ def test_the_line_is_learnt_from_nothing_in_the_window_of_a_current_version_and_
 
 
 @pytest.mark.usefixtures("window_programs")
-def test_a_schematics_layer_is_built_without_learning_and_what_stood_there_is_put_back(tmp_path: Path) -> None:
+def test_a_layer_of_a_schematic_is_built_without_learning_and_the_old_blocks_are_restored(tmp_path: Path) -> None:
     profile, hut = tmp_path / "profile.toml", tmp_path / "hut.schem"
     hut.write_bytes(sponge(HUT))
     with open_display() as env, open_rehearsal(env, tmp_path) as rehearsal:
@@ -156,7 +156,7 @@ def without_air(blocks: dict[Block, str]) -> dict[Block, str]:
 
 
 @pytest.mark.parametrize("condition", [each for each in CONDITIONS if each != USUAL], ids=lambda each: each.name)
-def test_nothing_is_ever_wrong_at_any_rate_on_any_layout_with_a_window_manager(
+def test_no_cell_or_block_is_wrong_at_other_frame_rates_layouts_and_window_managers(
     condition: Condition, profile: Path, tmp_path: Path
 ) -> None:
     with in_its_arena(profile, tmp_path, condition) as rehearsal:
@@ -166,7 +166,7 @@ def test_nothing_is_ever_wrong_at_any_rate_on_any_layout_with_a_window_manager(
 
 
 def soon(is_so: Callable[[], bool]) -> bool:
-    """Return whether it comes true before long."""
+    """Return whether ``is_so`` returns True soon."""
     end = time.monotonic() + SOON_S
     while not is_so():
         if time.monotonic() > end:
@@ -228,7 +228,7 @@ def test_the_panic_key_stops_a_live_training_which_goes_on_later(training: Train
     assert json.loads((training.run / "summary.json").read_text())["episodes_done"] == [12]
 
 
-def test_another_window_and_another_size_in_the_middle_are_survived(training: Training) -> None:
+def test_a_live_training_survives_another_window_in_front_and_a_new_window_size(training: Training) -> None:
     process = training.start()
     assert soon(training.is_moving)
     root, game = training.display.screen().root, training.display.get_input_focus().focus
@@ -251,7 +251,7 @@ def test_another_window_and_another_size_in_the_middle_are_survived(training: Tr
     assert json.loads((training.run / "summary.json").read_text())["episodes_done"] == [12]
 
 
-def test_a_window_that_is_closed_ends_the_training_in_one_line(training: Training) -> None:
+def test_closing_the_window_ends_the_training_with_a_message(training: Training) -> None:
     process = training.start()
     assert soon(training.is_moving)
     window = training.display.get_input_focus().focus

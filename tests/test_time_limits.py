@@ -83,7 +83,7 @@ def test_this_test_has_a_limit(request: pytest.FixtureRequest) -> None:
 
 @pytest.mark.slow
 @pytest.mark.skipif(sys.platform == "win32", reason="there, no test fails by a signal: the first that hangs ends all")
-def test_what_hangs_is_ended_and_named_and_what_follows_is_run(tmp_path: Path) -> None:
+def test_a_hanging_test_is_ended_and_named_and_later_tests_still_run(tmp_path: Path) -> None:
     (tmp_path / "conftest.py").write_text(CONFTEST)
     (tmp_path / "test_made.py").write_text(HANGING)
     (tmp_path / "pytest.ini").write_text("[pytest]\nmarkers = slow\n")

@@ -59,13 +59,13 @@ def test_a_wrong_value_is_shown_shortened() -> None:
     assert long.endswith(f"not '{'a' * 56}...: mend that key")
 
 
-def test_what_is_no_toml_is_refused() -> None:
+def test_text_that_is_not_toml_is_refused() -> None:
     with pytest.raises(ScenarioError, match=r"^x\.toml: not TOML \(.*\): mend that line"):
         parse_document("= 1", "x.toml", ScenarioError)
 
 
 @pytest.mark.parametrize("text", ["a = 1\nb = ", 'a = 1\nb = "x', "a = 1\nb = [1,", "a = 1\n[tab", "a = 1\nb"])
-def test_a_text_that_is_cut_off_is_said_to_end_too_early(text: str) -> None:
+def test_a_truncated_text_is_refused_with_the_number_of_its_last_line(text: str) -> None:
     with pytest.raises(ScenarioError) as told:
         parse_document(text, "x.toml", ScenarioError)
     assert "\\x00" not in str(told.value)
@@ -87,7 +87,7 @@ def test_a_shipped_name_comes_first_and_a_path_after(tmp_path: Path) -> None:
         text_of(tmp_path / "own")
 
 
-def test_a_file_that_can_not_be_read_is_one_line(tmp_path: Path) -> None:
+def test_an_unreadable_file_is_refused(tmp_path: Path) -> None:
     (tmp_path / "x.toml").write_bytes(b"\xff\xfe")
     with pytest.raises(PresetError, match="can't be read, it is not UTF-8 text"):
         read_toml_text(tmp_path / "x.toml", PresetError)
@@ -95,7 +95,7 @@ def test_a_file_that_can_not_be_read_is_one_line(tmp_path: Path) -> None:
         read_toml_text(tmp_path / "none.toml", PresetError)
 
 
-def test_the_table_of_a_key_is_found_through_options_and_lists() -> None:
+def test_table_of_key_finds_the_table_of_an_optional_key() -> None:
     assert table_of_key(House, "door") is Door
     assert table_of_key(House, "name") is None
     assert table_of_key(House, "roof") is None

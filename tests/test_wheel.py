@@ -1,4 +1,4 @@
-"""A built wheel, installed alone in an environment of its own, elsewhere: it trains, reads and rehearses."""
+"""A built wheel, installed alone in a separate environment, elsewhere: it trains, reads and rehearses."""
 
 import json
 import os

@@ -1,4 +1,4 @@
-"""What every Env of an arena must do, whatever game is behind it; test_env_contract checks that wrong Envs fail it."""
+"""The contract of every Env, whatever game is behind it; test_env_contract checks that wrong Envs fail it."""
 
 from collections.abc import Sequence
 from typing import Any
@@ -15,7 +15,7 @@ from mc_nested.arena.scenario import Scenario
 
 
 def check_env_contract(env: gymnasium.Env[Any, Any], scenario: Scenario, actions: Sequence[Action]) -> None:
-    """Raise AssertionError where what the Env returns isn't what the task says.
+    """Raise AssertionError where the Env returns something else than the task says.
 
     Three episodes: of these actions, which end none; of the builder, to the optimum; and one to the step limit. The
     scenario's first material must not be its best one.
@@ -56,7 +56,7 @@ def _check_reset(
 
 
 def _follow(env: gymnasium.Env[Any, Any], scenario: Scenario, actions: Sequence[Action]) -> list[tuple[Any, ...]]:
-    """Do the actions, and compare each step with the rules; the steps that the Env returned."""
+    """Do the actions, compare each step with the rules, and return the Env's steps."""
     cell, placed, steps = scenario.start, set[Cell](), list[tuple[Any, ...]]()
     for action in actions:
         step = env.step(action)

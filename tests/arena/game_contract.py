@@ -1,4 +1,4 @@
-"""What every Game must do, whatever is behind it; test_game_contract checks that wrong Games fail it."""
+"""The contract of every Game, whatever is behind it; test_game_contract checks that wrong Games fail it."""
 
 from collections.abc import Callable, Sequence
 
@@ -55,7 +55,7 @@ Kinds = Callable[[], dict[Cell, str]]
 def check_materials(
     game: Game, scenario: Scenario, steps: Sequence[tuple[Action, int | None]], kinds: Kinds | None = None
 ) -> None:
-    """Raise AssertionError where what is in hand changes an outcome, or a block isn't of the material in hand.
+    """Raise AssertionError where the material in hand changes an outcome, or a block isn't of that material.
 
     One episode after an abandoned one that ended with another material in hand; a step is an action and the material to
     take in hand before it, None to leave it.

@@ -28,7 +28,7 @@ def test_designs_come_in_their_order_and_small_ones_are_centred(tmp_path: Path) 
     )
 
 
-def test_a_drawing_as_large_as_the_arena_stands_where_it_is_drawn() -> None:
+def test_a_drawing_as_large_as_the_arena_keeps_its_position() -> None:
     rows = ["#" + "." * 14, *["." * 15] * 12, "." * 14 + "#", "." * 15]
     (scenario,) = parse_corpus(corpus(("corners", "\n".join(rows))), "mine", LINE)
     assert scenario.design == {(0, 14), (14, 1)}

@@ -1,4 +1,4 @@
-"""The kinds of designs: each of exactly one.
+"""The kinds of designs: every design is of exactly one.
 
 A scenario from a design alone: what it takes over, and its step limit.
 """
@@ -28,7 +28,7 @@ from mc_nested.arena.search import fewest_steps
 
 
 @pytest.mark.parametrize(("name", "kind"), [("line", EDGE), ("zigzag", CORNER), ("diamond", CORNER)])
-def test_the_shipped_designs(name: str, kind: str) -> None:
+def test_the_papers_designs_are_of_known_kinds(name: str, kind: str) -> None:
     assert kind_of_design(load_scenario(name).design) == kind
 
 
@@ -46,7 +46,7 @@ def test_a_design_is_joined_by_edges_or_by_corners_or_scattered(design: set[Cell
     assert kind_of_design(design) == kind
 
 
-def test_eight_cells_are_around_a_cell() -> None:
+def test_neighbours_returns_the_eight_cells_around_a_cell() -> None:
     around = neighbours((5, 5), (*BESIDE, *DIAGONAL))
     assert sorted(around) == [(x, y) for x in (4, 5, 6) for y in (4, 5, 6) if (x, y) != (5, 5)]
 
@@ -54,13 +54,13 @@ def test_eight_cells_are_around_a_cell() -> None:
 LINE = load_scenario("line")
 
 
-def test_a_design_that_is_quickly_built_has_the_shipped_designs_limit() -> None:
+def test_a_quickly_built_design_gets_the_shipped_designs_step_limit() -> None:
     for name in ("line", "zigzag"):
         shipped = load_scenario(name)
         assert scenario_of_design(name, shipped.design, LINE) == shipped
 
 
-def test_a_long_way_has_half_as_many_steps_again_as_the_builder_takes() -> None:
+def test_a_slowly_built_design_gets_one_and_a_half_times_the_builders_steps_as_limit() -> None:
     far_apart = frozenset({(0, 1), (14, 1), (0, 14), (14, 14), (0, 7), (14, 7)})
     scenario = scenario_of_design("far", far_apart, LINE)
     assert scenario
@@ -87,7 +87,7 @@ def small_designs(draw: st.DrawFn) -> Scenario:
 
 
 @given(small_designs())
-def test_every_design_is_built_within_its_limit_and_never_in_fewer_steps_than_the_exact_search_finds(
+def test_the_builder_takes_at_least_the_fewest_steps_and_at_most_the_step_limit(
     like: Scenario,
 ) -> None:
     scenario = scenario_of_design("any", like.design, like)

@@ -34,7 +34,7 @@ def test_each_kind_of_cell_has_its_sign() -> None:
     assert signs == {(7, 13): "^", (7, 14): "#", (0, 3): "x", (6, 14): "o", (9, 9): "."}
 
 
-def test_with_parts_a_cell_to_build_has_its_parts_number() -> None:
+def test_a_cell_to_build_shows_the_number_of_its_part() -> None:
     assert draw_text(STRIPES, (1, 1), {(1, 3), (3, 2)}).splitlines() == [
         ". . . . .",
         ". # 1 . .",
@@ -44,7 +44,7 @@ def test_with_parts_a_cell_to_build_has_its_parts_number() -> None:
     ]
 
 
-def test_without_an_agent_none_is_drawn_and_the_far_edge_is_on_top() -> None:
+def test_a_text_drawing_has_the_far_edge_on_top_and_no_agent_unless_given() -> None:
     lines = draw_text(PAIR, None, {(7, 14)}).splitlines()
     assert len(lines) == 15
     assert lines[0] == ". . . . . . o # . . . . . . ."
@@ -52,7 +52,7 @@ def test_without_an_agent_none_is_drawn_and_the_far_edge_is_on_top() -> None:
 
 
 @pytest.mark.parametrize("size", [8, 32])
-def test_an_arena_is_drawn_as_large_as_it_is(size: int) -> None:
+def test_a_text_drawing_has_the_arenas_size(size: int) -> None:
     corner = dataclasses.replace(PAIR, design=frozenset({(size - 1, size - 1)}), start=(0, 0), size=size)
     lines = draw_text(corner, (0, 0), ()).splitlines()
     assert [len(line.split()) for line in lines] == [size] * size
@@ -73,7 +73,7 @@ def middle(picture: Picture, x: int, y: int) -> list[int]:
     return colour
 
 
-def test_every_kind_of_cell_has_a_colour_of_its_own_and_the_far_edge_is_on_top() -> None:
+def test_a_picture_colours_each_kind_of_cell_and_has_the_far_edge_on_top() -> None:
     picture = draw_picture(PAIR, None, {(7, 14), (0, 3)})
     assert picture.shape == (240, 240, 3)
     assert picture.dtype == np.uint8
@@ -81,19 +81,19 @@ def test_every_kind_of_cell_has_a_colour_of_its_own_and_the_far_edge_is_on_top()
     assert [middle(picture, *cell) for cell in cells] == [list(each) for each in (BUILT, TO_BUILD[0], WRONG, GROUND)]
 
 
-def test_the_design_is_outlined_before_and_after_it_is_built_and_nothing_else_is() -> None:
+def test_only_the_designs_cells_are_outlined_whether_built_or_not() -> None:
     picture = draw_picture(PAIR, None, {(7, 14), (0, 3)})
     corner = [cell_of(picture, *cell)[1, 1].tolist() for cell in [(7, 14), (6, 14), (0, 3), (9, 9)]]
     assert [colour == list(DESIGN[0]) for colour in corner] == [True, True, False, False]
 
 
-def test_a_line_of_the_grid_runs_before_every_cell() -> None:
+def test_a_grid_line_runs_before_every_row_and_column() -> None:
     picture = draw_picture(PAIR, (7, 12), {(7, 14)})
     assert (picture[::CELL_PX] == GRID).all()
     assert (picture[:, ::CELL_PX] == GRID).all()
 
 
-def test_the_agent_looks_up_and_hides_nothing_of_its_cells_edge() -> None:
+def test_the_agents_arrow_points_up_and_leaves_its_cells_edge_visible() -> None:
     bare, shown = (cell_of(draw_picture(PAIR, agent, (), 32), 6, 14, 32) for agent in (None, (6, 14)))
     arrow = (shown == AGENT_ARROW).all(axis=2)
     wide = [int(np.ptp(np.flatnonzero(arrow[row]))) for row in (9, 14, 19)]
@@ -111,7 +111,7 @@ def test_the_agent_changes_no_other_cell() -> None:
 
 
 @pytest.mark.parametrize(("size", "px"), [(8, 16), (32, 15), (5, 96)])
-def test_an_arena_is_drawn_as_large_as_it_is_asked_for(size: int, px: int) -> None:
+def test_a_picture_has_cells_of_the_requested_size(size: int, px: int) -> None:
     corner = dataclasses.replace(PAIR, design=frozenset({(size - 1, size - 1)}), start=(0, 0), size=size)
     picture = draw_picture(corner, (0, 0), (), px)
     assert picture.shape == (size * px, size * px, 3)
@@ -122,13 +122,13 @@ def test_an_arena_is_drawn_as_large_as_it_is_asked_for(size: int, px: int) -> No
     assert not reds[:-px].any()
 
 
-def test_a_picture_is_the_callers_own() -> None:
+def test_changing_a_picture_does_not_change_the_next_one() -> None:
     first = draw_picture(PAIR, None, ())
     first[:] = 0
     assert draw_picture(PAIR, None, ()).any()
 
 
-def test_the_parts_of_a_design_have_colours_of_their_own_built_or_not() -> None:
+def test_each_part_of_a_design_has_its_own_colour_whether_built_or_not() -> None:
     picture = draw_picture(STRIPES, None, {(1, 3), (3, 2)}, 20)
     far, near = (cell_of(picture, *cell, 20, 5) for cell in ((2, 3), (1, 2)))
     assert [cell[10, 10].tolist() for cell in (far, near)] == [list(colour) for colour in TO_BUILD[:2]]

@@ -56,7 +56,7 @@ def test_a_block_on_the_design_earns_1_and_one_off_it_nothing(begun: ArenaEnv) -
     assert rewards == [0.0, 0.0, 1.0, 0.0, 0.0]
 
 
-def test_a_void_block_earns_nothing_and_none_is_used_up(begun: ArenaEnv) -> None:
+def test_a_void_block_earns_nothing_and_uses_up_no_block(begun: ArenaEnv) -> None:
     observation, reward, *_, info = begun.step(Action.LD)
     assert (observation.tolist(), reward) == ([6, 14, 11], 0.0)
     assert "placed" not in info
@@ -73,7 +73,7 @@ def test_the_last_step_brings_the_main_agents_reward(material: str, score: float
     assert env.placed == env.scenario.design
 
 
-def test_the_step_limit_truncates_and_scores_what_stands(begun: ArenaEnv) -> None:
+def test_the_step_limit_truncates_the_episode_and_gives_the_score(begun: ArenaEnv) -> None:
     for _ in range(59):
         assert begun.step(Action.L)[2:4] == (False, False)
     *_, terminated, truncated, info = begun.step(Action.L)
@@ -88,7 +88,7 @@ def test_the_last_block_on_the_last_step_terminates(begun: ArenaEnv) -> None:
     assert (terminated, truncated) == (True, False)
 
 
-def test_a_step_after_the_end_needs_a_reset() -> None:
+def test_a_step_before_a_reset_or_after_the_end_raises() -> None:
     env = arena_env("line")
     with pytest.raises(ResetNeeded):
         env.step(Action.F)
@@ -111,7 +111,7 @@ class BreaksDown(GridGame):
         return super().act(action, material)
 
 
-def test_a_game_that_failed_needs_a_reset_before_it_goes_on() -> None:
+def test_an_env_needs_a_reset_after_its_game_failed() -> None:
     line = load_scenario("line")
     env = ArenaEnv(BreaksDown(line), line)
     env.reset()
@@ -135,7 +135,7 @@ def test_the_text_shows_agent_blocks_and_design() -> None:
     assert drawing[4] == ". . . . . . . o . . . . . . ."
 
 
-def test_the_picture_is_the_arena_as_it_stands() -> None:
+def test_the_picture_shows_the_arenas_present_state() -> None:
     env = arena_env("line", render_mode="rgb_array")
     env.reset()
     before = env.render()
@@ -144,5 +144,5 @@ def test_the_picture_is_the_arena_as_it_stands() -> None:
     assert (env.render() != before).any()
 
 
-def test_without_a_render_mode_nothing_is_drawn(begun: ArenaEnv) -> None:
+def test_an_env_without_a_render_mode_draws_nothing(begun: ArenaEnv) -> None:
     assert begun.render() is None

@@ -66,6 +66,6 @@ LIARS = [PaysForEveryBlock, NeverEnds, TerminatesAtTheLimit, TellsTheScoreEarly,
 
 
 @pytest.mark.parametrize("liar", [*LIARS, ShowsFloats])
-def test_an_env_that_returns_something_else_fails(liar: type[ArenaEnv]) -> None:
+def test_an_env_with_wrong_returns_fails_the_contract(liar: type[ArenaEnv]) -> None:
     with pytest.raises((AssertionError, pytest.fail.Exception)):
         check_env_contract(liar(GridGame(LINE), LINE), LINE, BUMPS)

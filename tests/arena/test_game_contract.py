@@ -82,14 +82,14 @@ class ForgetsItsBlocks(GridGame):
 
 
 class NeverLooks(GridGame):
-    """Says what the rules say, and knows nothing of a world."""
+    """A game that repeats the rules, and knows nothing of a world."""
 
     def truth(self) -> tuple[Cell, set[Cell]]:
         return LINE.start, set()
 
 
 class NotesItsBlocks(GridGame):
-    """Notes of what its blocks are."""
+    """A game that notes the material of each of its blocks."""
 
     def __init__(self, scenario: Scenario) -> None:
         super().__init__(scenario)
@@ -112,7 +112,7 @@ class NotesItsBlocks(GridGame):
 
 class NeverTakesAnother(NotesItsBlocks):
     def take(self, material: int | None) -> None:
-        """Leave what is in hand."""
+        """Keep the material in hand."""
 
 
 class TakesTheFirstAgain(NotesItsBlocks):
@@ -131,14 +131,14 @@ class KeepsItOverAReset(NotesItsBlocks):
 IN_BOTH = [(TO_FAR[0], 1), (TO_FAR[1], None), *((action, 0) for action in TO_NEAR)]
 
 
-def test_whatever_is_in_hand_the_simulator_passes_and_so_does_what_notes_its_blocks() -> None:
+def test_the_simulator_and_a_game_that_notes_its_blocks_pass_the_materials_contract() -> None:
     check_materials(GridGame(STRIPES), STRIPES, IN_BOTH)
     game = NotesItsBlocks(STRIPES)
     check_materials(game, STRIPES, IN_BOTH, lambda: game.stands)
 
 
 @pytest.mark.parametrize("liar", [NeverTakesAnother, TakesTheFirstAgain, KeepsItOverAReset])
-def test_a_game_that_places_another_material_fails(liar: Callable[..., NotesItsBlocks]) -> None:
+def test_a_game_that_places_another_material_fails_the_contract(liar: Callable[..., NotesItsBlocks]) -> None:
     game = liar(STRIPES)
     steps = [(TO_FAR[0], None), *IN_BOTH[1:]] if liar is KeepsItOverAReset else IN_BOTH
     with pytest.raises(AssertionError, match="places what is in hand"):
@@ -151,7 +151,7 @@ def test_the_simulator_passes_the_contract() -> None:
 
 
 @given(st.lists(st.sampled_from(Action), max_size=80))
-def test_the_simulator_passes_over_any_actions(actions: list[Action]) -> None:
+def test_the_simulator_passes_the_contract_over_any_actions(actions: list[Action]) -> None:
     check_game(GridGame(LINE), LINE, actions)
 
 
@@ -163,12 +163,12 @@ LIARS = [
 
 
 @pytest.mark.parametrize("liar", LIARS)
-def test_a_game_with_wrong_outcomes_fails(liar: Callable[..., GridGame]) -> None:
+def test_a_game_with_wrong_outcomes_fails_the_contract(liar: Callable[..., GridGame]) -> None:
     with pytest.raises(AssertionError):
         check_game(liar(LINE), LINE, BUMPS)
 
 
-def test_a_game_that_returns_the_rules_instead_of_its_world_fails_against_the_truth() -> None:
+def test_a_game_that_only_repeats_the_rules_fails_against_the_truth() -> None:
     game = NeverLooks(LINE)
     check_game(game, LINE, BUMPS)
     with pytest.raises(AssertionError, match="did what was said"):

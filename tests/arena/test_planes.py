@@ -21,7 +21,7 @@ from tests.learn.made_experiments import BAR, DOT
 SMALL = replace(DOT, name="small", design=frozenset({(2, 3), (3, 3), (2, 4), (3, 4)}), start=(2, 1), size=5)
 
 
-def test_planes_are_the_agent_the_blocks_what_is_left_and_the_start() -> None:
+def test_planes_show_the_agent_the_blocks_the_share_left_and_the_start() -> None:
     occupied = np.zeros((1, 5, 5), np.bool_)
     occupied[0, 2, 3] = True
     planes = planes_of(np.array([[3, 2, 3]]), occupied, np.array([[2, 1]]), np.array([4]))[0]
@@ -32,13 +32,13 @@ def test_planes_are_the_agent_the_blocks_what_is_left_and_the_start() -> None:
     assert (planes[2] == 191).all(), "three blocks of four are left"
 
 
-def test_a_material_fills_one_plane_more() -> None:
+def test_a_material_fills_an_extra_plane() -> None:
     planes = with_material(np.zeros((2, 4, 5, 5), np.uint8), shares(np.array([1, 2]), 2))
     assert planes.shape == (2, 5, 5, 5)
     assert [np.unique(plane).tolist() for plane in planes[:, 4]] == [[128], [255]]
 
 
-def test_the_start_is_what_a_reset_shows() -> None:
+def test_start_planes_equal_the_observation_of_a_reset() -> None:
     scenarios = [DOT, BAR]
     env = PlanesVectorEnv(GridVectorEnv(scenarios), scenarios)
     np.testing.assert_array_equal(env.reset()[0], start_planes(scenarios))
@@ -50,7 +50,7 @@ def both_views(scenario: Scenario) -> list[PlanesVectorEnv]:
 
 
 @given(actions=st.lists(st.integers(0, 7), min_size=1, max_size=30))
-def test_arrays_and_single_games_are_seen_alike(actions: list[int]) -> None:
+def test_arrays_and_single_games_give_the_same_planes(actions: list[int]) -> None:
     views = both_views(SMALL)
     seen = [view.reset()[0] for view in views]
     for action in actions:
@@ -67,7 +67,7 @@ def test_observations_lie_in_their_space() -> None:
     assert view.observation_space.contains(view.step(np.array([Action.FD]))[0])
 
 
-def test_the_single_agent_sees_no_old_block_before_it_has_chosen() -> None:
+def test_the_single_agent_sees_no_old_blocks_and_no_material_after_a_reset() -> None:
     env = PlanesVectorEnv(SingleAgentVectorEnv(GridVectorEnv([SMALL]), [SMALL]), [SMALL])
     first, _ = env.reset()
     assert first.shape == (1, 5, 5, 5)
@@ -79,7 +79,7 @@ def test_the_single_agent_sees_no_old_block_before_it_has_chosen() -> None:
     np.testing.assert_array_equal(again, first)
 
 
-def test_a_view_is_saved_and_put_back_with_its_arenas() -> None:
+def test_a_restored_view_continues_with_its_arenas() -> None:
     for view in both_views(SMALL):
         view.reset()
         view.step(np.array([Action.FD]))
@@ -90,6 +90,6 @@ def test_a_view_is_saved_and_put_back_with_its_arenas() -> None:
         np.testing.assert_array_equal(view.step(np.array([Action.LD]))[0], expected)
 
 
-def test_arenas_of_several_sizes_are_one_line() -> None:
+def test_arenas_of_several_sizes_are_refused() -> None:
     with pytest.raises(ScenarioError, match=r"arenas of \[5, 15\] cells a side: images have one size"):
         start_planes([SMALL, DOT])

@@ -19,7 +19,7 @@ def test_a_design_is_a_function_of_seed_and_number() -> None:
     assert random_scenario(1, 3, LINE).design != HUNDRED[3].design
 
 
-def test_the_default_hundred_are_the_ones_that_were_measured() -> None:
+def test_the_default_hundred_designs_have_not_changed() -> None:
     drawings = "".join(table_of(scenario).design for scenario in HUNDRED)
     assert hashlib.sha256(drawings.encode()).hexdigest()[:16] == "ea8c675eddb6001a"
 
@@ -42,7 +42,7 @@ def test_every_number_of_blocks_is_drawn_and_every_design_can_be_built() -> None
     assert rows == set(range(1, 15))
 
 
-def test_a_design_that_touches_by_chance_is_drawn_again(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_random_design_of_the_wrong_kind_or_unbuildable_is_drawn_again(monkeypatch: pytest.MonkeyPatch) -> None:
     touching, apart = frozenset({(3, 3), (3, 4)}), frozenset({(3, 3), (9, 9)})
     drawn = iter([touching, frozenset({(3, 0), (9, 9)}), apart])
     monkeypatch.setattr("mc_nested.arena.random_designs.draw_design", lambda *_: next(drawn))
@@ -50,7 +50,7 @@ def test_a_design_that_touches_by_chance_is_drawn_again(monkeypatch: pytest.Monk
 
 
 @pytest.mark.parametrize("kind", KINDS)
-def test_a_larger_arena_is_used_to_its_edges(kind: str) -> None:
+def test_random_designs_reach_every_buildable_row_and_column_of_a_larger_arena(kind: str) -> None:
     random = np.random.default_rng(0)
     cells = {cell for _ in range(400) for cell in draw_design(kind, random, size=20)}
     assert {x for x, _ in cells} == set(range(20))

@@ -47,7 +47,7 @@ def test_a_placed_block_stops_a_move() -> None:
     assert moved((7, 7), Action.L, {(6, 7)}, SIZE) == (7, 7)
 
 
-def test_a_block_lands_in_front_of_where_the_move_led() -> None:
+def test_a_block_lands_in_front_of_the_cell_reached_by_the_move() -> None:
     assert landing((7, 7), Action.BD, (), SIZE) == (7, 8)
 
 
@@ -88,7 +88,7 @@ def test_a_block_lands_on_a_free_cell_in_front_or_nowhere(cell: Cell, action: Ac
 
 
 @pytest.mark.parametrize("size", [5, 14, 15, 16, 32])
-def test_the_edge_is_where_the_size_says(size: int) -> None:
+def test_the_arenas_edge_follows_its_size(size: int) -> None:
     last = size - 1
     assert [is_inside((x, 2), size) for x in (-1, 0, last, size)] == [False, True, True, False]
     assert [is_inside((2, y), size) for y in (-1, 0, last, size)] == [False, True, True, False]
@@ -100,7 +100,7 @@ def test_the_edge_is_where_the_size_says(size: int) -> None:
 
 
 @given(st.integers(5, 32), st.data())
-def test_a_grid_holds_the_cells_of_an_arena_of_its_size(size: int, data: st.DataObject) -> None:
+def test_a_grid_of_any_size_holds_the_placed_cells(size: int, data: st.DataObject) -> None:
     placed = data.draw(st.frozensets(st.tuples(st.integers(0, size - 1), st.integers(0, size - 1))))
     grid = grid_of(placed, size)
     assert grid.shape == (size, size)

@@ -1,4 +1,4 @@
-"""What follows from a scenario's facts.
+"""Facts that follow from a scenario.
 
 Parts: which is built when, what must hold of them, and the main agent's return.
 """
@@ -18,11 +18,11 @@ CLAY = Material("clay", 10.0, "clay")
 BAR = Scenario("bar", frozenset({(6, 12), (7, 12), (8, 12)}), (7, 13), 9, (WOOD, STONE, CLAY))
 
 
-def test_there_is_a_block_for_each_cell_and_the_optimum_is_all_of_them_in_the_best_material() -> None:
+def test_a_scenario_has_a_block_per_cell_and_an_optimum_in_the_best_material() -> None:
     assert (BAR.blocks, BAR.start_state, BAR.optimum) == (3, (7, 13, 3), 13.0)
 
 
-def test_of_materials_that_are_worth_the_same_the_first_is_the_best() -> None:
+def test_the_first_of_several_best_materials_is_the_best_material() -> None:
     assert BAR.best_material == 1
     assert replace(BAR, materials=(WOOD,)).optimum == -2.0
 
@@ -41,7 +41,7 @@ def test_an_arena_has_5_to_32_cells_a_side(size: int) -> None:
 
 
 @pytest.mark.parametrize("cell", [(15, 3), (3, 15), (-1, 3), (3, -1)])
-def test_a_design_larger_than_its_arena_is_refused_whoever_makes_it(cell: tuple[int, int]) -> None:
+def test_a_design_that_reaches_outside_its_arena_is_refused(cell: tuple[int, int]) -> None:
     with pytest.raises(ScenarioError, match=rf"cell \({cell[0]}, {cell[1]}\) lies outside the arena of 15 x 15 cells"):
         replace(BAR, design=BAR.design | {cell})
     if min(cell) >= 0:
@@ -49,7 +49,7 @@ def test_a_design_larger_than_its_arena_is_refused_whoever_makes_it(cell: tuple[
 
 
 @pytest.mark.parametrize("start", [(15, 3), (3, 15), (-1, 3), (3, -1)])
-def test_a_start_outside_its_arena_is_refused_whoever_makes_it(start: tuple[int, int]) -> None:
+def test_a_start_outside_its_arena_is_refused(start: tuple[int, int]) -> None:
     with pytest.raises(ScenarioError, match="lies outside: choose 0 to 14 for x and y"):
         replace(BAR, start=start)
 
@@ -57,21 +57,21 @@ def test_a_start_outside_its_arena_is_refused_whoever_makes_it(start: tuple[int,
 WORTH = (1.0, 2.0)
 
 
-def test_the_part_that_is_built_follows_from_the_blocks_laid() -> None:
+def test_the_current_part_follows_from_the_number_of_blocks_laid() -> None:
     assert [part_after(laid, STRIPES.parts) for laid in range(6)] == [0, 0, 1, 1, 1, 1]
     assert [STRIPES.part_at(left) for left in (5, 4, 3, 1, 0)] == [0, 0, 1, 1, 1]
 
 
-def test_without_parts_the_design_is_one_in_which_materials_are_worth_their_p() -> None:
+def test_a_scenario_without_parts_counts_as_one_part_with_the_materials_p() -> None:
     assert replace(STRIPES, parts=()).in_order == (Part(FAR | NEAR, (-5.0, 10.0)),)
 
 
-def test_the_optimum_is_every_block_on_its_part_of_the_best_material_there() -> None:
+def test_the_optimum_builds_each_part_in_its_best_material() -> None:
     assert STRIPES.optimum == 5 + 10 + 6
     assert (STRIPES.best_material, STRIPES.best_materials) == (1, (1, 0))
 
 
-def test_the_return_is_the_blocks_on_their_part_and_the_shares_of_p() -> None:
+def test_the_main_agents_return_adds_paid_blocks_and_each_materials_share_of_p() -> None:
     # Both parts of an episode: one block of wood and one of stone in the first, two of three of stone in the second.
     laid = np.array([[[1, 1], [0, 2]]])
     worth = np.array([[[-5.0, 10.0], [6.0, -3.0]]])
@@ -79,7 +79,7 @@ def test_the_return_is_the_blocks_on_their_part_and_the_shares_of_p() -> None:
 
 
 @pytest.mark.parametrize("p", [-5.0, 10.0, 0.1, 1 / 3])
-def test_of_one_part_and_one_choice_the_return_is_the_papers(p: float) -> None:
+def test_the_return_of_one_part_and_one_choice_is_the_papers(p: float) -> None:
     blocks, none = np.array([7]), np.array([[[7, 0]]])
     assert main_return(blocks, none, np.array([[[p, 99.0]]]), np.array([[7]])) == 7 + p
 
@@ -100,7 +100,7 @@ def test_parts_that_overlap_or_do_not_cover_the_design_are_refused(
         replace(STRIPES, parts=tuple(Part(cells, WORTH) for cells in parts))
 
 
-def test_a_later_part_that_nobody_would_begin_is_refused() -> None:
+def test_a_later_part_that_can_only_lower_the_score_is_refused() -> None:
     replace(STRIPES, parts=(Part(FAR, (-9.0, -9.0)), Part(NEAR, (-3.0, -9.0))))
     with pytest.raises(ScenarioError, match=r"^parts: part 2, built whole, brings at most -0\.5: raise a worth$"):
         replace(STRIPES, parts=(Part(FAR, WORTH), Part(NEAR, (-3.5, -9.0))))

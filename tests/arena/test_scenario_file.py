@@ -44,7 +44,7 @@ block = "glass"
 
 
 @pytest.mark.parametrize(("name", "optimum"), [("line", 21), ("zigzag", 21), ("diamond", 26)])
-def test_the_shipped_scenarios_are_the_tasks_table(name: str, optimum: float) -> None:
+def test_the_papers_scenarios_match_the_tasks_table(name: str, optimum: float) -> None:
     scenario = load_scenario(name)
     assert scenario.design == DESIGNS[name]
     assert scenario.start == (7, 14)
@@ -66,15 +66,13 @@ def test_a_file_that_begins_with_a_byte_order_mark_is_read(tmp_path: Path) -> No
     assert load_scenario(tmp_path / "dot.toml").name == "dot"
 
 
-def test_experiments_run_the_papers_three_and_more_are_shipped() -> None:
+def test_seven_scenarios_are_shipped_and_three_are_the_papers() -> None:
     assert paper_scenarios() == ["line", "zigzag", "diamond"]
     assert shipped_scenarios() == ["line", "zigzag", "diamond", "islands", "house", "square", "flag"]
 
 
 @pytest.mark.parametrize(("name", "blocks"), [("islands", 6), ("house", 40), ("square", 100), ("flag", 16)])
-def test_the_other_shipped_scenarios_can_be_built_with_half_as_many_steps_again_as_the_builder_takes(
-    name: str, blocks: int
-) -> None:
+def test_other_shipped_scenarios_allow_at_least_1_45_times_the_builders_steps(name: str, blocks: int) -> None:
     scenario = load_scenario(name)
     assert (scenario.blocks, scenario.size, scenario.start) == (blocks, 15, (7, 14))
     assert scenario.materials == (WOOD, STONE)
@@ -90,7 +88,7 @@ def test_the_square_is_filled_and_the_islands_are_two() -> None:
 
 
 @given(st.integers(SMALLEST_SIZE, LARGEST_SIZE), st.lists(st.floats(-100, 100), min_size=1, max_size=9), st.data())
-def test_a_scenario_survives_its_table(size: int, worth: list[float], data: st.DataObject) -> None:
+def test_a_scenario_is_read_back_from_its_table_unchanged(size: int, worth: list[float], data: st.DataObject) -> None:
     materials = tuple(Material(f"m{index}", p, "stone") for index, p in enumerate(worth))
     buildable = st.tuples(st.integers(0, size - 1), st.integers(1, size - 1))
     start = data.draw(st.tuples(st.integers(0, size - 1), st.integers(0, size - 1)))
@@ -99,7 +97,7 @@ def test_a_scenario_survives_its_table(size: int, worth: list[float], data: st.D
 
 
 def check_refused(text: str, says: str) -> None:
-    """Raise AssertionError unless that scenario file is refused in one line, which begins with its name and says so."""
+    """Raise AssertionError unless that scenario file is refused in one line with its name and ``says``."""
     with pytest.raises(ScenarioError) as caught:
         parse_scenario(text, "dot.toml")
     assert str(caught.value).startswith("dot.toml: ")
@@ -115,7 +113,7 @@ def drawn(rows: list[str], start: str = "[3, 4]") -> str:
 
 
 @pytest.mark.parametrize("size", [5, 14, 20, 32])
-def test_the_drawings_size_is_the_arenas(size: int) -> None:
+def test_the_drawings_size_sets_the_arenas_size(size: int) -> None:
     rows = ["." * (size - 1) + "#", *["." * size] * (size - 2), "." * size]
     scenario = parse_scenario(drawn(rows, f"[0, {size - 1}]"), "dot.toml")
     assert scenario.size == size
@@ -136,7 +134,7 @@ def test_the_drawings_size_is_the_arenas(size: int) -> None:
         (["#" + "." * 19] + ["." * 20] * 19, "[-1, 0]", "start: (-1, 0) lies outside: choose 0 to 19 for x and y"),
     ],
 )
-def test_a_drawing_that_makes_no_arena_is_refused_in_one_line(rows: list[str], start: str, says: str) -> None:
+def test_an_invalid_drawing_or_start_is_refused_in_one_line(rows: list[str], start: str, says: str) -> None:
     check_refused(drawn(rows, start), says)
 
 
@@ -162,7 +160,9 @@ def test_a_drawing_that_makes_no_arena_is_refused_in_one_line(rows: list[str], s
         (("[[materials]]", '[[materials]]\nname="glass"\np=2\nblock="glass"\n[[materials]]'), "same name"),
     ],
 )
-def test_a_mistake_in_a_file_is_one_line_that_names_it(change: tuple[str, str], says: str) -> None:
+def test_a_mistake_in_a_scenario_file_is_refused_in_one_line_that_names_the_mistake(
+    change: tuple[str, str], says: str
+) -> None:
     check_refused(OWN.replace(*change), says)
 
 
@@ -178,18 +178,18 @@ def test_too_few_steps_for_the_blocks_are_refused() -> None:
         parse_scenario(tight, "dot.toml")
 
 
-def test_an_unknown_name_lists_the_known_ones() -> None:
+def test_an_unknown_scenario_name_is_refused_with_the_known_ones() -> None:
     with pytest.raises(ScenarioError, match="no scenario 'pyramid': name one of line, zigzag, diamond, islands"):
         load_scenario("pyramid")
 
 
-def test_a_name_that_lacks_its_ending_is_recognised(tmp_path: Path) -> None:
+def test_a_path_without_its_ending_is_refused_with_a_suggestion(tmp_path: Path) -> None:
     (tmp_path / "dot.toml").write_text(OWN)
     with pytest.raises(ScenarioError, match=r"did you mean .*dot\.toml\?$"):
         load_scenario(tmp_path / "dot")
 
 
-def test_an_unknown_material_lists_the_known_ones() -> None:
+def test_an_unknown_material_is_refused_with_the_known_ones() -> None:
     with pytest.raises(ScenarioError, match="no material 'gold': choose one of wood, stone"):
         load_scenario("line").material_index("gold")
 
@@ -208,7 +208,7 @@ def in_parts(*drawings: frozenset[Cell], more: str = "") -> str:
 FAR, NEAR = frozenset({(1, 3), (2, 3)}), frozenset({(1, 2)})
 
 
-def test_parts_are_read_in_their_order_and_what_they_do_not_say_is_the_materials_p() -> None:
+def test_parts_are_read_in_order_and_materials_they_do_not_name_are_worth_their_p() -> None:
     scenario = parse_scenario(in_parts(FAR, NEAR, more="choose_every = 4"), "two.toml")
     assert scenario.parts == (Part(FAR, (1.0, 0.0)), Part(NEAR, (1.0, 0.0)))
     assert scenario.choose_every == 4
@@ -216,7 +216,7 @@ def test_parts_are_read_in_their_order_and_what_they_do_not_say_is_the_materials
 
 
 @given(scenarios_with_parts())
-def test_a_scenario_with_parts_survives_its_table(scenario: Scenario) -> None:
+def test_a_scenario_with_parts_is_read_back_from_its_table_unchanged(scenario: Scenario) -> None:
     assert scenario_of(table_of(scenario), "here") == scenario
 
 
@@ -234,5 +234,5 @@ def test_a_scenario_with_parts_survives_its_table(scenario: Scenario) -> None:
         (in_parts(FAR, NEAR).replace("cells = '''\n.....", "cells = '''\n..?..", 1), "parts: part 1: row 1 is '..?..'"),
     ],
 )
-def test_a_mistake_in_the_parts_is_one_line_that_names_it(text: str, says: str) -> None:
+def test_a_mistake_in_the_parts_is_refused_in_one_line_that_names_the_mistake(text: str, says: str) -> None:
     check_refused(text, says)

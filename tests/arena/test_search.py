@@ -18,13 +18,13 @@ def test_the_shipped_designs_take_the_known_fewest_steps(name: str, steps: int) 
     assert fewest_steps(load_scenario(name)) == FewestSteps(steps, exact=True)
 
 
-def test_beyond_the_exact_search_the_builders_count_is_an_upper_bound() -> None:
+def test_a_design_too_large_for_the_exact_search_gets_the_builders_steps_as_bound() -> None:
     design = frozenset((x, 5) for x in range(15)) | {(x, 7) for x in range(EXACT_UP_TO - 14)}
     scenario = _scenario(design, (7, 14))
     assert fewest_steps(scenario) == FewestSteps(len(build(scenario)), exact=False)
 
 
-def test_the_exact_search_fits_the_largest_arena() -> None:
+def test_the_exact_search_covers_the_largest_arena() -> None:
     # Blocks in the two far corners: up along the right side, 30 steps, one block, and across, 31 steps.
     scenario = _scenario(frozenset({(31, 31), (0, 31)}), (31, 1), 32)
     assert fewest_steps(scenario) == FewestSteps(29 + 31, exact=True)
@@ -39,7 +39,7 @@ cells = st.tuples(st.integers(1, 5), st.integers(1, 5))
     off=st.integers(0, 10),
     size=st.sampled_from([15, 16, 17, 32]),
 )
-def test_a_plain_search_finds_the_same(design: frozenset[Cell], start: Cell, off: int, size: int) -> None:
+def test_the_exact_search_agrees_with_a_plain_search(design: frozenset[Cell], start: Cell, off: int, size: int) -> None:
     # From the near left corner to the far right one, where a row of bits ends.
     shift = size - 6 if off > 5 else off
     design = frozenset((x + shift, y + shift) for x, y in design)
@@ -50,7 +50,7 @@ def test_a_plain_search_finds_the_same(design: frozenset[Cell], start: Cell, off
 
 
 @given(scenarios_with_parts())
-def test_a_plain_search_finds_the_same_part_after_part(scenario: Scenario) -> None:
+def test_the_exact_search_agrees_with_a_plain_search_on_scenarios_with_parts(scenario: Scenario) -> None:
     found = fewest_steps(scenario)
     assert found == FewestSteps(_plain_search(scenario), exact=True)
     assert found.steps <= len(build(scenario))

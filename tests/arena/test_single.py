@@ -75,7 +75,7 @@ def test_a_later_material_action_does_nothing_and_counts_as_a_step() -> None:
     assert (truncated.tolist(), info["score"].tolist()) == ([True], [10.0])
 
 
-def test_an_ended_episode_stands_still_until_it_is_reset() -> None:
+def test_an_ended_episode_stands_still_until_its_reset() -> None:
     env = single(2)
     env.step(np.array([STONE, FIRST_MOVE]))
     _, _, terminated, _, info = env.step(np.array([FIRST_MOVE + Action.BD, STONE]))
@@ -103,9 +103,7 @@ def test_arrays_and_single_arenas_agree(seed: int) -> None:
 
 
 @given(scenarios_with_parts(), st.integers(0, 2**32 - 1))
-def test_with_parts_an_episodes_return_is_its_score_and_the_score_that_of_the_arena(
-    scenario: Scenario, seed: int
-) -> None:
+def test_a_single_agents_return_with_parts_is_the_arenas_score(scenario: Scenario, seed: int) -> None:
     random, materials = np.random.default_rng(seed), len(scenario.materials)
     view = SingleAgentVectorEnv(GridVectorEnv([scenario]), [scenario])
     view.reset()
@@ -137,7 +135,7 @@ def test_with_parts_an_episodes_return_is_its_score_and_the_score_that_of_the_ar
     assert sum(rewards) == pytest.approx(info["score"][0])
 
 
-def test_with_parts_a_later_material_action_takes_it_in_hand_and_counts_as_a_step() -> None:
+def test_a_later_material_action_with_parts_changes_the_material_and_counts_as_a_step() -> None:
     view = SingleAgentVectorEnv(GridVectorEnv([STRIPES]), [STRIPES])
     view.reset()
     steps = [view.step(np.array([action])) for action in (STONE, FIRST_MOVE + Action.FD, WOOD, FIRST_MOVE + Action.RD)]
@@ -150,7 +148,7 @@ def test_with_parts_a_later_material_action_takes_it_in_hand_and_counts_as_a_ste
     assert info["score"][0] == 2 + 5 - 2.5, "and the near stripe, of which nothing stands, earns nothing"
 
 
-def test_a_snapshot_of_parts_brings_both_tallies_back() -> None:
+def test_a_restored_snapshot_with_parts_earns_the_same_rewards() -> None:
     view = SingleAgentVectorEnv(GridVectorEnv([STRIPES]), [STRIPES])
     view.reset()
     view.step(np.array([STONE]))
@@ -162,7 +160,7 @@ def test_a_snapshot_of_parts_brings_both_tallies_back() -> None:
     assert [view.step(np.array([action]))[1].tolist() for action in ahead] == first
 
 
-def test_a_snapshot_brings_every_arena_back() -> None:
+def test_a_restored_snapshot_continues_every_arena_identically() -> None:
     env = single(2)
     random = np.random.default_rng(3)
     env.step(np.array([STONE, WOOD]))
@@ -187,19 +185,19 @@ def singles(builders: int, runs: int = 1) -> SingleAgentVectorEnv:
 F, B, L, R, FD, LD, RD, BD = range(FIRST_MOVE, 10)
 
 
-def test_before_a_choice_each_of_several_sees_its_own_start() -> None:
+def test_each_of_several_single_agents_observes_its_own_start() -> None:
     assert singles(2).reset()[0].tolist() == [[7, 14, 11, 0], [14, 14, 11, 0]]
 
 
 @pytest.mark.parametrize("beside", [WOOD, BD])
-def test_the_first_of_several_chooses_for_all_and_earns_p_whatever_the_others_do(beside: int) -> None:
+def test_the_first_of_several_single_agents_chooses_for_all_and_earns_p(beside: int) -> None:
     observations, rewards, terminated, truncated, _ = singles(2).step(np.array([STONE, beside]))
     assert observations.tolist() == [[7, 14, 11, 2], [14, 14, 11, 2]]
     assert rewards.tolist() == [10.0, 0.0]
     assert not (terminated | truncated).any()
 
 
-def test_without_the_first_ones_choice_the_episode_of_all_ends_with_score_0() -> None:
+def test_an_episode_of_several_ends_with_score_0_if_the_first_agent_chooses_no_material() -> None:
     env = singles(2, runs=2)
     _, rewards, terminated, _, info = env.step(np.array([B, STONE, STONE, B]))
     assert (terminated.tolist(), rewards.tolist()) == ([True, True, False, False], [0.0, 0.0, 10.0, 0.0])
@@ -210,7 +208,7 @@ def test_without_the_first_ones_choice_the_episode_of_all_ends_with_score_0() ->
 
 
 def score_of_a_truncated_episode(env: SingleAgentVectorEnv, steps_left: int) -> list[float]:
-    """Return the scores of two who do nothing until they have no step left, which are so many."""
+    """Return the scores of two agents that do nothing for their last ``steps_left`` steps."""
     for _ in range(steps_left - 1):
         assert not env.step(np.array([WOOD, WOOD]))[3].any()
     _, _, terminated, truncated, info = env.step(np.array([WOOD, WOOD]))
@@ -219,7 +217,7 @@ def score_of_a_truncated_episode(env: SingleAgentVectorEnv, steps_left: int) -> 
     return scores
 
 
-def test_a_block_is_missing_to_all_and_counts_in_the_score_of_all() -> None:
+def test_a_placed_block_is_used_up_for_all_agents_and_counts_in_the_score_of_all() -> None:
     env = singles(2)
     env.step(np.array([STONE, STONE]))
     observations, rewards, *_ = env.step(np.array([BD, WOOD]))
@@ -231,7 +229,7 @@ def test_a_block_is_missing_to_all_and_counts_in_the_score_of_all() -> None:
     assert score_of_a_truncated_episode(env, steps_left=56) == [11.0, 11.0]
 
 
-def test_a_later_material_action_of_one_of_several_does_nothing_and_counts_as_a_step() -> None:
+def test_a_later_material_action_of_several_agents_does_nothing_and_counts_as_a_step() -> None:
     env = singles(2)
     env.step(np.array([STONE, STONE]))
     observations, *_ = env.step(np.array([WOOD, L]))
@@ -240,7 +238,7 @@ def test_a_later_material_action_of_one_of_several_does_nothing_and_counts_as_a_
 
 
 @given(st.lists(st.integers(0, 9), max_size=70))
-def test_one_builder_is_the_papers_single_agent(actions: list[int]) -> None:
+def test_a_team_of_one_steps_as_the_papers_single_agent(actions: list[int]) -> None:
     ours, theirs = singles(1), single()
     for action in actions:
         own, other = ours.step(np.array([action])), theirs.step(np.array([action]))
@@ -249,7 +247,7 @@ def test_one_builder_is_the_papers_single_agent(actions: list[int]) -> None:
         assert own[4]["score"].tolist() == other[4]["score"].tolist()
 
 
-def test_an_episode_of_several_goes_on_where_it_was_saved() -> None:
+def test_a_restored_episode_of_several_agents_continues_as_the_saved_one() -> None:
     env, other = singles(2), singles(2)
     env.step(np.array([STONE, F]))
     env.step(np.array([BD, LD]))

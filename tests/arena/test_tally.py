@@ -26,14 +26,14 @@ def begun(scenario: Scenario, material: str = "stone") -> ArenaEnv:
     return env
 
 
-def test_an_action_goes_in_beside_a_material() -> None:
+def test_an_env_with_parts_takes_an_action_and_a_material() -> None:
     env = arena_env(STRIPES)
     assert env.action_space.contains(np.array([7, 1]))
     assert not env.action_space.contains(np.array([7, 2]))
     check_env(env, skip_render_check=True)
 
 
-def test_a_block_pays_on_the_part_that_is_built_and_not_on_a_later_one() -> None:
+def test_a_block_pays_on_the_current_part_and_not_on_a_later_one() -> None:
     env = begun(STRIPES)
     assert env.step((Action.BD, STONE))[1] == 0.0
     assert env.step((Action.RD, STONE))[1] == 0.0
@@ -43,7 +43,7 @@ def test_a_block_pays_on_the_part_that_is_built_and_not_on_a_later_one() -> None
     assert other.placed == {(2, 2)}
 
 
-def test_each_part_earns_what_its_own_material_is_worth() -> None:
+def test_each_part_earns_the_worth_of_the_material_used_there() -> None:
     env = begun(STRIPES)
     far = [env.step((action, STONE)) for action in TO_FAR]
     assert [step[1] for step in far] == [1.0, 1.0]
@@ -56,13 +56,13 @@ def test_each_part_earns_what_its_own_material_is_worth() -> None:
     assert not any("score" in step[4] for step in [*far, *near[:-1]])
 
 
-def test_the_main_agent_chooses_when_a_part_is_used_up_and_not_when_the_episode_ends() -> None:
+def test_the_main_agent_chooses_when_a_part_is_used_up_but_not_at_the_episodes_end() -> None:
     env = begun(STRIPES)
     chooses = [env.step((action, STONE))[4]["chooses"] for action in (*TO_FAR, *TO_NEAR)]
     assert chooses == [False, True, False, False, False, False, False]
 
 
-def test_on_a_clock_it_chooses_within_a_part_too_counted_from_its_last_choice() -> None:
+def test_choose_every_lets_the_main_agent_choose_that_many_steps_after_its_last_choice() -> None:
     env = begun(replace(STRIPES, choose_every=3))
     actions = (Action.B, Action.F, *TO_FAR, *TO_NEAR)
     # After 3 steps, at the far stripe's end, and 3 steps later.
@@ -76,7 +76,7 @@ def test_blocks_of_two_materials_share_their_parts_p() -> None:
     assert env.step((TO_FAR[1], STONE))[4]["earned"] == 2 + (-5 + 10) / 2
 
 
-def test_what_the_last_part_lacks_counts_for_the_material_in_hand_and_parts_never_begun_for_nothing() -> None:
+def test_missing_blocks_of_the_last_begun_part_count_for_the_material_in_hand() -> None:
     env = begun(STRIPES)
     env.step((TO_FAR[0], STONE))
     steps = [env.step((Action.B, WOOD)) for _ in range(11)]
@@ -85,14 +85,14 @@ def test_what_the_last_part_lacks_counts_for_the_material_in_hand_and_parts_neve
     assert steps[-1][4]["score"] == steps[-1][4]["earned"] == 1 + (10 - 5) / 2
 
 
-def test_an_action_alone_leaves_in_hand_what_was() -> None:
+def test_an_action_without_a_material_keeps_the_material_in_hand() -> None:
     env = begun(STRIPES, "wood")
     assert env.step(Action.FD)[4]["earned"] == 1 - 2.5
     env.step((Action.RD, STONE))
     assert env.step(Action.B)[4]["material"] == "stone"
 
 
-def test_a_material_that_the_scenario_does_not_have_is_refused_and_nothing_is_done() -> None:
+def test_an_unknown_material_index_is_refused_and_no_step_is_done() -> None:
     env = begun(STRIPES)
     with pytest.raises(ValueError, match="an index that the scenario doesn't have"):
         env.step((Action.FD, 2))
@@ -101,7 +101,7 @@ def test_a_material_that_the_scenario_does_not_have_is_refused_and_nothing_is_do
 
 
 @given(actions=st.lists(st.sampled_from(Action), min_size=60, max_size=60), material=st.sampled_from([WOOD, STONE]))
-def test_with_one_part_and_one_choice_everything_is_as_without_parts(actions: list[Action], material: int) -> None:
+def test_a_scenario_with_one_part_and_one_choice_steps_as_without_parts(actions: list[Action], material: int) -> None:
     as_one = replace(LINE, parts=(Part(LINE.design, (-5.0, 10.0)),))
     name = LINE.materials[material].name
     one, none = begun(as_one, name), begun(LINE, name)
@@ -116,7 +116,7 @@ def test_with_one_part_and_one_choice_everything_is_as_without_parts(actions: li
 
 
 @given(scenarios_with_parts())
-def test_the_builder_reaches_the_optimum_whatever_the_parts(scenario: Scenario) -> None:
+def test_the_builder_reaches_the_optimum_of_any_parts(scenario: Scenario) -> None:
     env = arena_env(replace(scenario, step_limit=len(build(scenario))))
     env.reset()
     *_, last = [env.step(step) for step in build_with_materials(scenario)]
@@ -135,7 +135,7 @@ def test_no_episode_scores_more_than_the_optimum(scenario: Scenario, seed: int) 
             break
 
 
-def test_materials_of_one_worth_add_up_to_it_exactly() -> None:
+def test_equally_worth_materials_in_one_part_add_up_to_their_worth_exactly() -> None:
     # A third and two thirds of 0.1 aren't 0.1 in binary.
     far = frozenset({(1, 3), (2, 3), (3, 3)})
     alike = replace(STRIPES, design=far, parts=(Part(far, (0.1, 0.1)),))
@@ -144,7 +144,7 @@ def test_materials_of_one_worth_add_up_to_it_exactly() -> None:
     assert steps[-1][4]["score"] == alike.optimum == 3 + 0.1
 
 
-def test_an_arena_without_an_action_takes_no_material_either() -> None:
+def test_an_arena_without_an_action_earns_nothing_and_offers_no_choice() -> None:
     arenas = GridVectorEnv([STRIPES, STRIPES])
     arenas.reset(options={"material": np.array([STONE, STONE])})
     _, rewards, *_, info = arenas.step(np.array([[NO_ACTION, WOOD], [Action.FD, STONE]]))
@@ -154,7 +154,7 @@ def test_an_arena_without_an_action_takes_no_material_either() -> None:
     assert arenas.step(np.array([[Action.FD, STONE], [NO_ACTION, 0]]))[4]["earned"].tolist() == [6.0, 0.0]
 
 
-def test_scenarios_with_and_without_parts_go_side_by_side() -> None:
+def test_arenas_with_and_without_parts_are_scored_side_by_side() -> None:
     arenas = GridVectorEnv([STRIPES, replace(STRIPES, parts=())])
     arenas.reset(options={"material": np.array([STONE, STONE])})
     for action in (*TO_FAR, *TO_NEAR):
@@ -162,7 +162,7 @@ def test_scenarios_with_and_without_parts_go_side_by_side() -> None:
     assert info["score"].tolist() == [5 + 10 - 3, 5 + 10]
 
 
-def test_a_part_that_would_only_begin_as_the_episode_is_cut_earns_nothing() -> None:
+def test_a_part_that_would_begin_at_truncation_earns_nothing() -> None:
     env = begun(replace(STRIPES, step_limit=2))
     (_, _, _, _, first), (_, _, _, truncated, last) = [env.step((action, STONE)) for action in TO_FAR]
     assert truncated
@@ -172,7 +172,7 @@ def test_a_part_that_would_only_begin_as_the_episode_is_cut_earns_nothing() -> N
     )
 
 
-def test_arenas_without_parts_take_no_material_beside_an_action() -> None:
+def test_arenas_without_parts_ignore_a_material_beside_an_action() -> None:
     for env in (GridVectorEnv([LINE]), ArenaVectorEnv([arena_env(LINE)])):
         env.reset()
         observations, *_ = env.step(np.array([[Action.B, STONE]]))

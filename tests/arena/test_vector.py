@@ -37,7 +37,7 @@ def test_arenas_can_be_resumed_if_every_game_can() -> None:
     assert resumable_arenas(single) is single
 
 
-def test_a_restored_episode_goes_on_to_its_end_as_it_did_before() -> None:
+def test_a_restored_episode_continues_to_its_end_as_before() -> None:
     env = arenas(GridGame(LINE), GridGame(LINE))
     env.reset(options={"material": np.array([0, 1])})
     random = np.random.default_rng(2)
@@ -57,7 +57,7 @@ def test_a_restored_episode_goes_on_to_its_end_as_it_did_before() -> None:
     assert first[-1][3] == [True, True] or first[-1][2] == [True, True]  # type: ignore[index]  # both have ended
 
 
-def test_gymnasiums_wrappers_fit_over_it_and_start_their_episodes_over() -> None:
+def test_arenas_work_in_gymnasium_wrappers_but_can_not_be_resumed_there() -> None:
     for env in (arenas(GridGame(LINE)), GridVectorEnv([LINE])):
         wrapped = RecordEpisodeStatistics(env)
         wrapped.reset()
@@ -65,7 +65,7 @@ def test_gymnasiums_wrappers_fit_over_it_and_start_their_episodes_over() -> None
         assert resumable_arenas(wrapped) is None
 
 
-def test_every_arena_gets_a_seed_of_its_own_as_in_gymnasiums_vector_envs() -> None:
+def test_each_arena_gets_its_own_seed_as_in_gymnasiums_vector_envs() -> None:
     env = arenas(GridGame(LINE), GridGame(LINE))
     env.reset(seed=5)
     assert [arena.np_random_seed for arena in env.envs] == [5, 6]
@@ -73,7 +73,7 @@ def test_every_arena_gets_a_seed_of_its_own_as_in_gymnasiums_vector_envs() -> No
     assert [arena.np_random_seed for arena in env.envs] == [9, 6]
 
 
-def test_a_seed_too_few_is_refused() -> None:
+def test_too_few_seeds_are_refused() -> None:
     for env in (arenas(GridGame(LINE), GridGame(LINE)), GridVectorEnv([LINE] * 2)):
         with pytest.raises(ValueError, match="seed needs one entry for each of the 2 runs"):
             env.reset(seed=[5])
@@ -102,7 +102,7 @@ def of_envs() -> NextStepAutoreset:
 
 @pytest.mark.parametrize("make", [arrays, of_envs])
 @given(seed=st.integers(0, 2**32 - 1), material=st.sampled_from([None, "wood", "stone"]))
-def test_it_steps_as_gymnasiums_own_over_single_arenas(make: Any, seed: int, material: str | None) -> None:
+def test_autoreset_steps_as_gymnasiums_own_vector_env(make: Any, seed: int, material: str | None) -> None:
     random = np.random.default_rng(seed)
     ours, theirs = make(), SyncVectorEnv([lambda: arena_env(LINE)] * RUNS)
     options = {"material": material} if material else None
@@ -117,14 +117,14 @@ def test_it_steps_as_gymnasiums_own_over_single_arenas(make: Any, seed: int, mat
         np.testing.assert_array_equal(one[4]["score"], other[4].get("score", np.zeros(RUNS)))
 
 
-def test_it_says_how_it_resets_and_leaves_the_arenas_own_words_alone() -> None:
+def test_the_autoreset_wrapper_declares_its_mode_and_leaves_the_arenas_metadata_unchanged() -> None:
     env = arrays()
     assert env.metadata["autoreset_mode"] is AutoresetMode.NEXT_STEP
     assert env.metadata["render_modes"] == ["rgb_array", "ansi"]
     assert env.unwrapped.metadata["autoreset_mode"] is AutoresetMode.DISABLED
 
 
-def test_an_arena_that_is_reset_by_hand_is_not_reset_again() -> None:
+def test_an_arena_reset_by_hand_is_not_reset_again() -> None:
     env = arrays()
     env.reset()
     for action in build(LINE):
@@ -144,7 +144,7 @@ def test_gymnasiums_statistics_count_every_episode_once() -> None:
     assert list(env.length_queue) == [len(build(LINE))] * 4
 
 
-def test_nothing_is_done_before_the_first_reset() -> None:
+def test_a_step_before_the_first_reset_raises() -> None:
     with pytest.raises(ResetNeeded, match=r"call reset\(\) first"):
         arrays().step(np.zeros(RUNS, np.int64))
 

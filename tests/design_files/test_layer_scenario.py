@@ -31,13 +31,13 @@ def full(width: int, length: int) -> Volume:
     return layer(*["s" * width] * length)
 
 
-def test_north_is_the_far_edge_east_the_right_and_the_blocks_are_in_the_middle() -> None:
+def test_north_becomes_the_far_edge_east_the_right_and_the_blocks_are_centred() -> None:
     scenario, notes = scenario_of_layer("hook", layer("......", "...ss.", "...s.."), 0)
     assert drawn(scenario) == ["." * 15] * 6 + ["......##.......", "......#........"] + ["." * 15] * 7
     assert notes == []
 
 
-def test_everything_else_is_as_in_the_shipped_designs() -> None:
+def test_the_scenario_of_a_layer_has_the_shipped_designs_materials_start_and_step_limit() -> None:
     scenario, _ = scenario_of_layer("bar", full(4, 1), 0)
     assert (scenario.name, scenario.materials, scenario.step_limit) == ("bar", LINE.materials, 60)
     assert (scenario.size, scenario.start) == (15, LINE.start)
@@ -56,7 +56,7 @@ def test_the_arena_is_as_large_as_the_blocks_need_with_the_near_edge_free(
     assert notes == []
 
 
-def test_of_a_larger_layer_the_middle_is_kept_and_what_was_cut_off_is_told() -> None:
+def test_the_middle_of_a_larger_layer_is_kept_and_the_cut_is_reported() -> None:
     scenario, notes = scenario_of_layer("field", full(40, 35), 0)
     assert (scenario.size, scenario.blocks) == (32, 32 * 31)
     assert len(notes) == 1
@@ -66,7 +66,7 @@ def test_of_a_larger_layer_the_middle_is_kept_and_what_was_cut_off_is_told() -> 
     )
 
 
-def test_what_is_kept_of_a_larger_layer_is_its_middle_itself() -> None:
+def test_a_larger_layer_keeps_exactly_its_middle_columns() -> None:
     row = "".join("s" if column in (0, 3, 4, 35, 36, 40) else "." for column in range(41))
     scenario, notes = scenario_of_layer("dots", layer(row), 0)
     assert sorted(x for x, _ in scenario.design) == [0, 31]  # columns 4 to 35
@@ -79,7 +79,7 @@ def test_a_layer_without_a_block_in_its_middle_is_refused() -> None:
         scenario_of_layer("ring", layer(*ring), 0)
 
 
-def test_kinds_of_blocks_are_told_the_most_frequent_first() -> None:
+def test_kinds_of_blocks_are_reported_most_frequent_first() -> None:
     _, notes = scenario_of_layer("mixed", layer("aabbbcde"), 0)
     assert notes == ["its blocks are built of one material: 3 b, 2 a, 1 c, 2 others"]
 
@@ -94,7 +94,7 @@ def test_kinds_of_blocks_are_told_the_most_frequent_first() -> None:
         ("\n", 1, "design"),
     ],
 )
-def test_a_scenarios_name_is_one_that_a_run_can_store(name: str, layers: int, becomes: str) -> None:
+def test_the_name_of_a_scenario_is_changed_to_one_that_a_run_can_store(name: str, layers: int, becomes: str) -> None:
     volume = Volume(("air", "stone"), np.ones((layers, 1, 1), np.int32))
     scenario, _ = scenario_of_layer(name, volume, layers - 1)
     assert scenario.name == becomes

@@ -27,14 +27,14 @@ def test_numbers_of_any_width_are_unpacked(bits: int, data: st.DataObject) -> No
     assert unpacked_numbers(longs, bits, first, len(numbers) - first).tolist() == numbers[first:]
 
 
-def test_a_region_larger_than_what_is_unpacked_at_once_is_read_whole() -> None:
+def test_a_region_larger_than_one_chunk_is_read_whole() -> None:
     rows = ["s." * 150 + "o"] * (CHUNK // 301 + 2)
     (layer,) = names_in(read_litematic(read_nbt(litematic({"all": region([rows])}))))
     assert layer == [["stone", "air"] * 150 + ["oak_stairs"]] * len(rows)
 
 
 @pytest.mark.parametrize("backwards", ["", "x", "y", "z", "xyz"])
-def test_a_region_lies_the_same_way_whichever_end_it_is_given_from(backwards: str) -> None:
+def test_a_region_given_from_any_end_is_read_the_same(backwards: str) -> None:
     one = region([["ss", "s.", "o."]], (4, 0, -9), backwards)
     other = region([["cc"]], (4, 1, -7))
     assert names_in(read_litematic(read_nbt(litematic({"a": one, "b": other})))) == [
@@ -43,7 +43,7 @@ def test_a_region_lies_the_same_way_whichever_end_it_is_given_from(backwards: st
     ]
 
 
-def test_where_regions_overlap_a_later_ones_blocks_stand_and_its_air_does_not() -> None:
+def test_blocks_of_a_later_overlapping_region_win_but_its_air_does_not() -> None:
     regions = {"low": region([["sss"]]), "over": region([["o.c"]], (1, 0, 0))}
     assert names_in(read_litematic(read_nbt(litematic(regions)))) == [
         [["stone", "oak_stairs", "stone", "create:shaft"]],
@@ -69,12 +69,12 @@ def test_a_palette_of_one_kind_still_takes_two_bits_a_block() -> None:
         ({"BlockStates": b"\0" * 24}, "BlockStates is not an array of numbers"),
     ],
 )
-def test_a_region_whose_parts_do_not_fit_together_is_refused(changes: dict[str, Any], says: str) -> None:
+def test_an_inconsistent_region_is_refused(changes: dict[str, Any], says: str) -> None:
     with pytest.raises(ScenarioError, match=says):
         read_litematic(read_nbt(litematic({"all": region(HUT) | changes})))
 
 
-def test_regions_far_apart_or_many_large_ones_are_refused_before_they_are_put_together() -> None:
+def test_regions_too_far_apart_or_too_large_together_are_refused() -> None:
     far = litematic({"here": region([["s"]]), "there": region([["s"]], (2**31 - 1, 0, 0))})
     with pytest.raises(ScenarioError, match="its size is 2147483648 x 1 x 1"):
         read_litematic(read_nbt(far))
@@ -89,6 +89,6 @@ def test_a_file_without_regions_is_refused() -> None:
         read_litematic(read_nbt(litematic({})))
 
 
-def test_a_litematic_is_known_by_its_tags() -> None:
+def test_a_litematic_is_recognised_by_its_tags() -> None:
     assert is_litematic(read_nbt(litematic({})))
     assert not is_litematic(read_nbt(nbt_file({"Metadata": {}})))

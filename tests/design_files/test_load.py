@@ -35,7 +35,7 @@ def names_in(volume: Volume) -> list[str]:
 
 
 def names_of(drawing: Drawing, name: str) -> list[str]:
-    """Return what the reader of a file of that name calls the drawing's blocks."""
+    """Return the names of the drawing's blocks, as the reader of a file of that name gives them."""
     others = {"c": "block number 300"} if name.startswith("mcedit") else {}
     return [{**NAMES, **others}[character] for character in cells(drawing)]
 
@@ -48,7 +48,7 @@ BEDROCK = (
 
 
 @pytest.mark.parametrize("name", WRITERS)
-def test_every_format_holds_the_same_blocks(name: str, write: Write) -> None:
+def test_every_format_is_read_to_the_same_blocks(name: str, write: Write) -> None:
     volume = read_volume(write(name, WRITERS[name](HUT)))
     assert volume.blocks.shape == (4, 3, 4)
     assert names_in(volume) == names_of(HUT, name)
@@ -85,7 +85,7 @@ def test_other_names_are_shipped_scenarios_or_toml_files() -> None:
         load_any_scenario("line", 0)
 
 
-def test_the_lowest_layer_with_blocks_is_taken_and_that_is_told(write: Write) -> None:
+def test_the_lowest_layer_with_blocks_is_taken_and_reported(write: Write) -> None:
     path = write("hut.schem", sponge([["...."] * 3, *HUT]))
     loaded = load_any_scenario(path)
     assert loaded.scenario.name == "hut-1"
@@ -96,7 +96,7 @@ def test_the_lowest_layer_with_blocks_is_taken_and_that_is_told(write: Write) ->
     )
 
 
-def test_a_layer_that_is_named_needs_no_note(write: Write) -> None:
+def test_a_named_layer_is_taken_without_a_note(write: Write) -> None:
     path = write("hut.schem", sponge(HUT))
     loaded = load_any_scenario(path, 2)
     assert (loaded.scenario.name, loaded.scenario.blocks, loaded.notes) == ("hut-2", 2, ())
@@ -161,7 +161,9 @@ def test_layer_numbers_are_listed_in_words(numbers: list[int], words: str) -> No
         ("HUT.MCSTRUCTURE", b"whatever", "it is a structure of Minecraft Bedrock Edition"),
     ],
 )
-def test_a_file_that_can_not_be_used_is_one_line_that_names_it(name: str, data: bytes, says: str, write: Write) -> None:
+def test_an_unusable_file_is_refused_in_one_line_that_names_the_file(
+    name: str, data: bytes, says: str, write: Write
+) -> None:
     path = write(name, data)
     with pytest.raises(ScenarioError) as caught:
         load_any_scenario(path)
@@ -169,7 +171,7 @@ def test_a_file_that_can_not_be_used_is_one_line_that_names_it(name: str, data: 
     assert "\n" not in str(caught.value)
 
 
-def test_a_file_that_is_not_there_a_folder_and_one_too_large_are_refused(tmp_path: Path) -> None:
+def test_a_missing_file_a_folder_and_a_too_large_file_are_refused(tmp_path: Path) -> None:
     (tmp_path / "folder.schem").mkdir()
     with (tmp_path / "large.schem").open("wb") as file:
         file.truncate(MOST_BYTES + 1)
@@ -179,14 +181,14 @@ def test_a_file_that_is_not_there_a_folder_and_one_too_large_are_refused(tmp_pat
 
 
 @pytest.mark.skipif(not hasattr(os, "geteuid") or os.geteuid() == 0, reason="root may read everything")
-def test_a_file_that_may_not_be_read_is_refused(write: Write) -> None:
+def test_a_file_without_permission_to_read_is_refused(write: Write) -> None:
     path = write("hut.schem", sponge(HUT))
     path.chmod(0)
     with pytest.raises(ScenarioError, match="it can't be read, Permission denied: name another file"):
         read_volume(path)
 
 
-def test_without_pynbt_a_schematic_is_refused_in_one_line_that_names_the_extra(
+def test_a_schematic_without_pynbt_is_refused_with_the_install_command(
     write: Write, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setitem(sys.modules, "pynbt", None)

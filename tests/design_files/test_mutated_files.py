@@ -66,7 +66,7 @@ def outcome(path: Path) -> str:
 
 
 def outcomes(files: dict[str, bytes], count: int, seed: int, folder: Path) -> Counter[str]:
-    """Return how often each outcome came of so many damaged copies of the files, each file equally often."""
+    """Return how often each outcome came of ``count`` damaged copies of the files, each file equally often."""
     generator = random.Random(seed)  # noqa: S311 - damage, no secret
     found: Counter[str] = Counter()
     names = sorted(files)

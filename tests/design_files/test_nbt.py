@@ -105,7 +105,7 @@ def test_a_file_that_unpacks_to_more_than_the_limit_is_not_unpacked_further() ->
         tracemalloc.stop()
 
 
-def test_reading_stops_beyond_as_many_values_as_any_design_has() -> None:
+def test_reading_stops_after_the_highest_allowed_number_of_values() -> None:
     values = ROOT + list_of(10, 1000) + b"\0" * 1001
     reads = 3 + 4 + 1000 + 1  # the root's type and name; the list's, with its length; each compound's end; the root's
     assert len(value_of(read_nbt(values, reads), "a", list)) == 1000
@@ -113,7 +113,7 @@ def test_reading_stops_beyond_as_many_values_as_any_design_has() -> None:
         read_nbt(values, reads - 1)
 
 
-def test_a_value_that_is_missing_or_of_another_type_is_named() -> None:
+def test_a_value_that_is_missing_or_of_another_type_is_refused_by_name() -> None:
     root = read_nbt(nbt_file({"Width": "wide", "Blocks": b"\0"}))
     with pytest.raises(ScenarioError, match=r"^Width is not a whole number: the file is damaged"):
         value_of(root, "Width", int)
@@ -166,7 +166,7 @@ def test_a_too_large_size_is_refused_in_less_than_a_second(name: str, is_size_la
     assert time.process_time() - began < MOST_S
 
 
-def test_a_too_large_size_is_refused_with_the_message_of_decoding_it() -> None:
+def test_a_too_large_stated_size_is_refused_with_the_readers_own_message() -> None:
     root = {**WIDE, "Version": 2, "Palette": {"a": 0}, "BlockData": bytes(SMALL_BYTES)}
     said = []
     for refuse in (lambda: check_stated_size(named("", root)), lambda: read_sponge(read_nbt(nbt_file(root)))):
@@ -176,7 +176,7 @@ def test_a_too_large_size_is_refused_with_the_message_of_decoding_it() -> None:
     assert said[0] == said[1]
 
 
-def test_the_largest_size_passes_and_so_does_a_file_without_a_size() -> None:
+def test_the_largest_size_and_a_file_without_a_valid_size_pass() -> None:
     rest = {"filler": bytes(SMALL_BYTES)}
     check_stated_size(named("", {**rest, "size": [256, MOST_CELLS // 256**2, 256]}))
     check_stated_size(named("", {**rest, "size": [-1, -1, -(2**31)]}))
@@ -187,5 +187,5 @@ def test_the_largest_size_passes_and_so_does_a_file_without_a_size() -> None:
         check_stated_size(named("", {**rest, "size": [256, MOST_CELLS // 256**2 + 1, 256]}))
 
 
-def test_a_small_file_is_left_to_its_reader() -> None:
+def test_the_stated_size_of_a_small_file_is_not_checked() -> None:
     check_stated_size(named("", {"size": [4000, 4000, 4000]}))

@@ -23,7 +23,7 @@ def read(path: Path) -> tuple[list[int], list[str]]:
 
 
 @pytest.mark.parametrize("reader", READERS)
-def test_real_schematics_are_read_alike_block_for_block(
+def test_real_schematics_are_read_as_two_other_readers_read_them(
     reader: str, other_readers: OtherReaders, tmp_path: Path
 ) -> None:
     files = other_readers.real_files
@@ -36,7 +36,9 @@ def test_real_schematics_are_read_alike_block_for_block(
 @pytest.mark.parametrize(
     "name", ["sponge1.schem", "sponge2.schem", "sponge3.schem", "mcedit.schematic", "structure.nbt"]
 )
-def test_the_files_that_our_tests_write_are_read_alike(name: str, other_readers: OtherReaders, tmp_path: Path) -> None:
+def test_files_written_by_our_tests_are_read_as_another_reader_reads_them(
+    name: str, other_readers: OtherReaders, tmp_path: Path
+) -> None:
     drawing = [[row.replace("c", "s") for row in layer] for layer in HUT]  # without the mod's block, unknown to one
     (tmp_path / name).write_bytes(WRITERS[name](drawing))
     assert other_readers.read("schematicjs", [tmp_path / name], tmp_path / "found.json") == [read(tmp_path / name)]

@@ -43,13 +43,13 @@ def read(path: Path) -> Cells:
 
 @pytest.mark.parametrize("size", [(5, 4, 7), (-5, 4, 7), (5, -4, -7), (-1, -1, -1), (16, 2, 33)])
 @pytest.mark.parametrize("kinds", [1, 2, 4, 5, len(STATES)])
-def test_a_litematic_of_one_region(size: tuple[int, int, int], kinds: int, tmp_path: Path) -> None:
+def test_a_litematic_of_one_region_by_litemapy_is_read(size: tuple[int, int, int], kinds: int, tmp_path: Path) -> None:
     region, names = filled(size, kinds, (3, -60, 8))
     Schematic(regions={"all": region}).save(str(tmp_path / "one.litematic"))
     assert read(tmp_path / "one.litematic") == names
 
 
-def test_a_litematic_of_several_regions_lies_as_its_regions_do(tmp_path: Path) -> None:
+def test_regions_of_a_litematic_by_litemapy_keep_their_positions(tmp_path: Path) -> None:
     one, names = filled((4, 2, 3), 4, (10, 5, -7))
     other, others = filled((-2, -2, -2), 4, (15, 6, -3))
     Schematic(regions={"one": one, "other": other}).save(str(tmp_path / "two.litematic"))
@@ -69,7 +69,9 @@ WRITTEN: dict[str, Callable[[Any], Any]] = {
 
 @pytest.mark.parametrize("name", WRITTEN)
 @pytest.mark.parametrize("size", [(5, 4, 7), (1, 1, 1), (16, 2, 33)])
-def test_a_structure_and_a_sponge_schematic(name: str, size: tuple[int, int, int], tmp_path: Path) -> None:
+def test_structures_and_sponge_schematics_by_litemapy_are_read(
+    name: str, size: tuple[int, int, int], tmp_path: Path
+) -> None:
     region, names = filled(size, len(STATES))
     WRITTEN[name](region).save(str(tmp_path / name))
     assert read(tmp_path / name) == names

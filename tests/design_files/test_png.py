@@ -70,7 +70,7 @@ def test_each_colour_is_a_kind_of_block() -> None:
         (picture(HUT[0])[:-40], "damaged, or ends in the middle"),
     ],
 )
-def test_a_file_that_is_no_picture_is_refused(data: bytes, says: str) -> None:
+def test_a_file_that_is_not_a_whole_small_picture_is_refused(data: bytes, says: str) -> None:
     with pytest.raises(ScenarioError, match=says):
         read_picture(data)
 

@@ -32,7 +32,7 @@ def test_numbers_of_any_length_are_decoded(numbers: list[int]) -> None:
         (b"\1\x80\x80\x80\x80\1", "a block's number is longer than four bytes"),
     ],
 )
-def test_blocks_that_are_not_as_many_as_the_cells_are_refused(data: bytes, says: str) -> None:
+def test_block_data_that_does_not_fit_the_cells_is_refused(data: bytes, says: str) -> None:
     with pytest.raises(ScenarioError, match=says):
         decoded(np.frombuffer(data, np.uint8), 2)
 
@@ -65,13 +65,13 @@ def test_a_palettes_numbers_may_have_gaps() -> None:
         ({"BlockData": "none"}, "BlockData is not an array of bytes"),
     ],
 )
-def test_a_sponge_schematic_that_does_not_fit_together_is_refused(changes: dict[str, Any], says: str) -> None:
+def test_an_inconsistent_sponge_schematic_is_refused(changes: dict[str, Any], says: str) -> None:
     with pytest.raises(ScenarioError, match=says):
         read_sponge(read_nbt(sponge_schematic(**changes)))
 
 
 @pytest.mark.parametrize("version", [1, 2, 3])
-def test_a_sponge_schematic_is_known_by_its_tags(version: int) -> None:
+def test_a_sponge_schematic_is_recognised_by_its_tags(version: int) -> None:
     assert is_sponge(read_nbt(sponge(HUT, version)))
     assert not is_sponge(read_nbt(nbt_file({"Palette": {}})))
 
@@ -94,7 +94,7 @@ def test_a_sponge_schematic_is_known_by_its_tags(version: int) -> None:
         (300, 2, "block number 300"),
     ],
 )
-def test_an_old_number_has_todays_name(number: int, data: int, name: str) -> None:
+def test_an_old_block_number_gets_todays_name(number: int, data: int, name: str) -> None:
     assert name_of(number, data) == name
 
 
@@ -114,7 +114,7 @@ def mcedit_schematic(**changes: Any) -> bytes:
         ({"AddBlocks": None, "Data": b"\xf0\xf1\xf2"}, ["stone", "granite", "grass_block"]),
     ],
 )
-def test_the_first_of_two_blocks_has_the_high_bits_that_are_added(changes: dict[str, Any], names: list[str]) -> None:
+def test_each_byte_of_addblocks_holds_the_high_bits_of_two_blocks(changes: dict[str, Any], names: list[str]) -> None:
     volume = read_mcedit(read_nbt(mcedit_schematic(**changes)))
     assert [volume.palette[number] for number in volume.blocks.reshape(-1)] == names
 
@@ -129,11 +129,11 @@ def test_the_first_of_two_blocks_has_the_high_bits_that_are_added(changes: dict[
         ({"Data": 3}, "Data is not an array of bytes"),
     ],
 )
-def test_an_mcedit_schematic_that_does_not_fit_together_is_refused(changes: dict[str, Any], says: str) -> None:
+def test_an_inconsistent_mcedit_schematic_is_refused(changes: dict[str, Any], says: str) -> None:
     with pytest.raises(ScenarioError, match=says):
         read_mcedit(read_nbt(mcedit_schematic(**changes)))
 
 
-def test_an_mcedit_schematic_is_known_by_its_tags() -> None:
+def test_an_mcedit_schematic_is_recognised_by_its_tags() -> None:
     assert is_mcedit(read_nbt(mcedit(HUT)))
     assert not is_mcedit(read_nbt(nbt_file({"Blocks": b""})))

@@ -22,7 +22,7 @@ def test_a_place_that_is_not_listed_is_free() -> None:
     assert volume.filled(0).tolist() == [[False, True], [False, False]]
 
 
-def test_of_several_palettes_the_first_is_taken() -> None:
+def test_the_first_of_several_palettes_is_taken() -> None:
     assert set(read_structure(read_nbt(structure(HUT, palettes=3))).kinds(0)) == {"stone", "oak_stairs"}
 
 
@@ -44,11 +44,11 @@ def test_of_several_palettes_the_first_is_taken() -> None:
         ({"palettes": []}, "palettes: the first is missing"),
     ],
 )
-def test_a_structure_whose_parts_do_not_fit_together_is_refused(changes: dict[str, Any], says: str) -> None:
+def test_an_inconsistent_structure_is_refused(changes: dict[str, Any], says: str) -> None:
     with pytest.raises(ScenarioError, match=says):
         read_structure(read_nbt(saved(**changes)))
 
 
-def test_a_structure_is_known_by_its_tags() -> None:
+def test_a_structure_is_recognised_by_its_tags() -> None:
     assert is_structure(read_nbt(structure(HUT)))
     assert not is_structure(read_nbt(nbt_file({"blocks": []})))

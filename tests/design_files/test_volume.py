@@ -1,4 +1,4 @@
-"""Volume: which cells have a block, and of what; what no design can be is refused before it is made."""
+"""Volume: which cells have a block, and of which kind; impossible designs are refused before they are made."""
 
 from collections import Counter
 
@@ -12,7 +12,7 @@ PALETTE = ("air", "stone", "oak_stairs", "stone", "cave_air")
 TWO_LAYERS = Volume(PALETTE, np.array([[[0, 4, 0], [0, 0, 4]], [[1, 2, 0], [3, 4, 0]]], np.int32))
 
 
-def test_a_layer_has_the_blocks_that_are_not_air_of_any_kind() -> None:
+def test_a_layer_holds_every_block_except_all_kinds_of_air() -> None:
     assert TWO_LAYERS.filled(1).tolist() == [[True, True, False], [True, False, False]]
     assert (TWO_LAYERS.layers, TWO_LAYERS.layers_with_blocks()) == (2, [1])
 

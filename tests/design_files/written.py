@@ -1,4 +1,4 @@
-"""Small design files of every format, written here byte by byte: what the readers are tested with.
+"""Small design files of every format, written here byte by byte, to test the readers with.
 
 A drawing is layers of rows of characters, the lowest layer first; PALETTE says what each is. NBT is written from Python
 values: a dict is a compound, an int an int, bytes an array of bytes, and so on (``payload``).

@@ -1,4 +1,4 @@
-"""What tests of trainings share: a short preset, games that fail or slip, and how two trainings are compared."""
+"""Helpers for tests of trainings: a short preset, games that fail or slip, and a comparison of two trainings."""
 
 from collections.abc import Sequence
 from typing import Any
@@ -41,7 +41,7 @@ class StartsOver(GridGame):
 
 
 class Slips(GridVectorEnv):
-    """A share of the actions are others."""
+    """Arenas in which a share of the actions is replaced by others."""
 
     def __init__(self, scenarios: Sequence[Scenario], share: float, seed: int) -> None:
         super().__init__(scenarios)

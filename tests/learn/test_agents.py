@@ -36,7 +36,7 @@ def test_the_hierarchys_low_level_agents_have_a_row_for_each_run_and_material() 
 
 
 @pytest.mark.parametrize(("sees_choice", "width", "count"), [(True, 4, 3), (False, 3, 1)])
-def test_the_single_agent_sees_its_choice_or_x_y_and_b_alone(sees_choice: bool, width: int, count: int) -> None:
+def test_the_single_agent_sees_its_choice_only_if_its_spec_says_so(sees_choice: bool, width: int, count: int) -> None:
     agent = Agent(replace(SINGLE, sees_choice=sees_choice), [DOT], PRESET, 0)
     shown = np.array([[7, 13, 1, 2]])
     assert agent.low_level_states(shown, np.zeros(1, np.int64)).tolist() == [[7, 13, 1, 2][:width]]
@@ -45,7 +45,7 @@ def test_the_single_agent_sees_its_choice_or_x_y_and_b_alone(sees_choice: bool, 
     assert agent.low_level.states.actions == 8 + 2
 
 
-def test_what_the_single_agent_has_chosen_is_the_last_column_less_one() -> None:
+def test_the_single_agents_chosen_material_is_its_last_column_minus_one() -> None:
     agent = Agent(SINGLE, [DOT], PRESET, 0)
     assert agent.chosen_materials(np.array([[7, 13, 1, 0], [7, 13, 1, 2]])).tolist() == [-1, 1]
 
@@ -74,7 +74,7 @@ def test_a_single_agent_can_not_practise_in_a_learnt_game() -> None:
         check_exploration(SINGLE, live)
 
 
-def test_one_runs_networks_play_alone_as_they_do_beside_others() -> None:
+def test_one_runs_networks_can_be_loaded_into_an_agent_of_one_or_several_runs() -> None:
     agent, alone = Agent(HIERARCHICAL, [DOT, DOT], PRESET, 0), Agent(HIERARCHICAL, [DOT], PRESET, 9)
     rows = agent.rows_of(1)
     alone.load_online({role: online[rows[role]] for role, online in agent.online().items()})
@@ -84,7 +84,7 @@ def test_one_runs_networks_play_alone_as_they_do_beside_others() -> None:
     np.testing.assert_array_equal(other.low_level.engine.online, np.tile(agent.low_level.engine.online[2:4], (2, 1)))
 
 
-def test_figures_are_nan_before_an_update_and_then_the_mean_over_a_runs_learners() -> None:
+def test_last_figures_are_nan_before_an_update_and_then_means_over_a_runs_learners() -> None:
     agent = Agent(HIERARCHICAL, [DOT, DOT], PRESET, 0)
     assert all(np.isnan(values).all() for values in agent.last_figures().values())
     compiled_engine(agent.low_level.engine)._last.values[1] = 3.0
@@ -106,7 +106,7 @@ IMAGE = load_preset("image")
 PLANES = start_planes([DOT, DOT])
 
 
-def test_an_image_has_the_main_agents_action_as_one_plane_more() -> None:
+def test_the_nested_agents_image_has_an_extra_plane_for_the_main_agents_action() -> None:
     agent = Agent(NESTED, [DOT, DOT], IMAGE, 0)
     assert agent.start_states([DOT, DOT]).tolist() == PLANES.tolist()
     states = agent.low_level_states(PLANES, np.array([0, 1]))

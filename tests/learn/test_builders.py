@@ -24,12 +24,12 @@ def test_a_nested_agents_state_is_its_cell_the_blocks_its_number_and_the_main_ac
     assert states.tolist() == [[7, 14, 11, 0, 1], [3, 2, 11, 1, 1], [0, 0, 4, 0, 0], [1, 1, 4, 1, 0]]
 
 
-def test_a_builder_alone_has_no_number() -> None:
+def test_the_state_of_a_builder_alone_has_no_builder_number() -> None:
     states = agent_of("shared", 1).low_level_states(SEEN[::2], np.array([1, 0]))
     assert states.tolist() == [[7, 14, 11, 1], [0, 0, 4, 0]]
 
 
-def test_a_single_agent_sees_what_its_arena_shows() -> None:
+def test_a_single_agents_state_is_its_arenas_observation() -> None:
     seen = np.concatenate((SEEN, np.ones((4, 1), np.int64)), axis=1)
     assert agent_of("single", 2).low_level_states(seen, np.array([1, 0])).tolist() == seen.tolist()
 
@@ -59,7 +59,7 @@ ALONE, NUMBERED, SINGLE = (5 * 32 + 33 * 32 + 33 * 8), (6 * 32 + 33 * 32 + 33 * 
         ("single", 4, 4, 4 * SINGLE),
     ],
 )
-def test_ways_to_learn_differ_in_their_networks_and_parameters(
+def test_shared_own_and_single_networks_differ_in_number_and_parameters(
     networks: Networks, builders: int, count: int, parameters: int
 ) -> None:
     agent = agent_of(networks, builders)
@@ -73,7 +73,7 @@ def a_tick(agent: Agent, draws: int = 0) -> Step:
     return Step(BOTH, np.ones(2, np.bool_), SEEN, chosen, states, *done, numbers)
 
 
-def test_what_is_shared_learns_from_all_and_what_is_own_from_its_own_an_update_for_each_builder() -> None:
+def test_shared_networks_learn_from_all_builders_and_own_networks_from_their_own() -> None:
     shared, own = agent_of("shared", 2), agent_of("own", 2)
     for agent in (shared, own):
         for _ in range(PAPER.update.learning_starts - 1):
@@ -92,18 +92,20 @@ def test_what_is_shared_learns_from_all_and_what_is_own_from_its_own_an_update_f
 
 @pytest.mark.parametrize(("preset", "table"), [("tuned", "excursions"), ("model-based", "imagination")])
 @pytest.mark.parametrize("networks", NETWORKS)
-def test_ways_to_explore_that_are_for_one_builder_are_refused(networks: Networks, preset: str, table: str) -> None:
+def test_excursions_and_imagination_are_refused_for_several_builders(
+    networks: Networks, preset: str, table: str
+) -> None:
     with pytest.raises(PresetError, match=rf"^\[{table}\] is for a builder alone: take the preset paper"):
         agent_of(networks, 2, preset=load_preset(preset))
 
 
-def test_images_are_refused() -> None:
+def test_image_states_are_refused_for_several_builders() -> None:
     with pytest.raises(PresetError, match=r"^builders in one arena see numbers, not states 'image': take the preset"):
         agent_of("shared", 2, preset=load_preset("image"))
 
 
 @pytest.mark.parametrize("networks", NETWORKS)
-def test_a_greedy_episode_is_the_trainings_last_evaluation(networks: Networks) -> None:
+def test_greedy_play_repeats_the_trainings_last_evaluation(networks: Networks) -> None:
     trainer = finish(trainer_of(networks, 2))
     for last in [row for row in trainer.evaluation_rows if row.episode == SHORT.episodes]:
         rows = trainer.agent.rows_of(last.trial)
@@ -168,18 +170,18 @@ def test_a_run_learns_the_same_alone_and_beside_others(networks: Networks, build
 
 @pytest.mark.parametrize("preset", [SHORT, MORE], ids=["paper", "more"])
 @pytest.mark.parametrize("networks", NETWORKS)
-def test_a_training_goes_on_from_a_save_to_the_bit(networks: Networks, preset: Preset) -> None:
+def test_a_resumed_training_continues_to_the_bit(networks: Networks, preset: Preset) -> None:
     whole, first, second = (trainer_of(networks, 2, preset=preset) for _ in range(3))
     second.load(*saved(ticked(first, 333)))
     assert_same(finish(second), finish(whole))
 
 
-def test_another_seed_is_another_training() -> None:
+def test_another_seed_gives_another_training() -> None:
     one, other = finish(trainer_of("shared", 2, seed=0)), finish(trainer_of("shared", 2, seed=1))
     assert one.episode_rows != other.episode_rows
 
 
-def test_evaluations_come_every_so_many_episodes_and_are_no_training() -> None:
+def test_evaluations_come_every_5_episodes_and_train_nothing() -> None:
     trainer = finish(trainer_of("shared", 3))
     episodes = [row.episode for row in trainer.evaluation_rows if row.trial == 0]
     assert episodes == [5, 10, 15, 20]

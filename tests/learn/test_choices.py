@@ -60,7 +60,7 @@ class Follows:
         return np.full(len(states), next(self._actions, int(Action.F)))
 
 
-def test_each_choice_is_credited_with_what_its_own_part_earned_and_leads_to_the_state_of_the_next(
+def test_a_choice_is_credited_with_its_parts_reward_and_leads_to_the_next_choices_state(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     preset = small_preset(1).model_copy(update={"evaluate_every": 100})
@@ -84,7 +84,7 @@ def test_each_choice_is_credited_with_what_its_own_part_earned_and_leads_to_the_
 
 
 @pytest.mark.parametrize(("second", "steps"), [(WOOD, [1, 2]), (STONE, [0, 3])])
-def test_the_low_level_agent_of_the_material_goes_on_and_what_it_took_over_from_has_not_ended(
+def test_each_materials_agent_stores_its_own_steps_and_a_switch_ends_no_episode(
     monkeypatch: pytest.MonkeyPatch, second: int, steps: list[int]
 ) -> None:
     preset = small_preset(1).model_copy(update={"evaluate_every": 100})
@@ -98,7 +98,7 @@ def test_the_low_level_agent_of_the_material_goes_on_and_what_it_took_over_from_
     assert [step[4] for step in transitions(trainer.agent.low_level, STONE)][1] == pytest.approx(preset.update.gamma)
 
 
-def test_the_return_of_an_episode_is_that_of_its_choices() -> None:
+def test_an_episodes_score_is_the_sum_of_its_choices_rewards() -> None:
     trainer = finish(trainer_of([STRIPES, replace(STRIPES, choose_every=3)], preset=small_preset(30)))
     for run in range(2):
         returns, total = [], 0.0
@@ -112,7 +112,7 @@ def test_the_return_of_an_episode_is_that_of_its_choices() -> None:
         assert total == 0.0
 
 
-def test_an_update_follows_each_choice_or_as_many_as_the_preset_says() -> None:
+def test_each_choice_is_followed_by_as_many_updates_as_the_preset_says() -> None:
     preset = small_preset(30)
     several = preset.model_copy(update={"main": MainUpdates(learning_starts=2, updates_an_episode=5)})
     for each, starts, updates in ((preset, preset.update.learning_starts, 1), (several, 2, 5)):
@@ -122,7 +122,7 @@ def test_an_update_follows_each_choice_or_as_many_as_the_preset_says() -> None:
 
 
 @pytest.mark.parametrize("agent", ["nested", "hierarchical"])
-def test_with_one_part_a_training_is_the_same_to_the_bit_as_without(agent: str) -> None:
+def test_a_training_with_one_part_is_the_same_to_the_bit_as_without_parts(agent: str) -> None:
     one, none = (finish(trainer_of([scenario] * 2, agent)) for scenario in (ONE_PART, DOT))
     assert one.episode_rows == none.episode_rows
     assert one.evaluation_rows == none.evaluation_rows
@@ -151,13 +151,13 @@ def test_a_run_learns_the_same_alone_in_a_batch_and_resumed(agent: str) -> None:
 
 
 @pytest.mark.parametrize("agent", ["nested", "hierarchical"])
-def test_excursions_and_imitation_go_part_by_part(agent: str) -> None:
+def test_excursions_and_imitation_reach_the_optimum_of_a_scenario_with_parts(agent: str) -> None:
     tuned = load_preset("tuned").model_copy(update={"episodes": 250, "hidden": [16, 16]})
     trainer = finish(trainer_of([STRIPES], agent, tuned))
     assert trainer.policy_scores.tolist() == [STRIPES.optimum]
 
 
-def test_the_policy_that_was_evaluated_plays_the_same_choices_afterwards() -> None:
+def test_an_evaluated_policy_plays_the_same_episode_again() -> None:
     trainer = finish(trainer_of([STRIPES], preset=small_preset(40)))
     (episode,) = play_greedily(GridVectorEnv([STRIPES]), [STRIPES], trainer.agent)
     last = trainer.evaluation_rows[-1]
@@ -184,6 +184,6 @@ def test_greedy_play_chooses_again_for_the_next_part(monkeypatch: pytest.MonkeyP
     assert episode.material_name(STRIPES) == "stone, then wood"
 
 
-def test_a_preset_that_imagines_its_game_takes_no_parts() -> None:
+def test_a_preset_with_imagination_refuses_scenarios_with_parts() -> None:
     with pytest.raises(PresetError, match=r"^\[imagination\] knows no parts, and stripes has some: take the preset"):
         Agent(AGENT_SPECS["nested"], [DOT, STRIPES], load_preset("model-based"), 0)

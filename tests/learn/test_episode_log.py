@@ -10,6 +10,6 @@ def test_rows_come_back_from_their_table_with_their_types() -> None:
     assert [type(value) for value in found[0]] == [int, int, float, int, int, float, float]
 
 
-def test_no_rows_are_a_table_with_their_columns() -> None:
+def test_an_empty_log_becomes_an_empty_table_with_its_columns() -> None:
     assert table_of_rows([], EvaluationRow).shape == (0, 5)
     assert rows_of_table(table_of_rows([], EvaluationRow), EvaluationRow) == []

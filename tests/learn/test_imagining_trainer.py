@@ -53,7 +53,7 @@ def test_a_small_design_is_built_within_a_few_episodes(spec: AgentSpec, seed: in
     assert [episode.score for episode in played] == [BENT.optimum]
 
 
-def test_the_single_agent_can_not_imagine_and_is_refused_in_one_line() -> None:
+def test_imagination_is_refused_for_the_single_agent_in_one_line() -> None:
     with pytest.raises(PresetError, match=r"\[imagination\] is not for the single agent: take") as caught:
         Agent(SINGLE, [BENT], SMALL, 0)
     assert "\n" not in str(caught.value)
@@ -100,7 +100,7 @@ def test_each_material_is_tried_once_and_then_the_best_is_taken(whole: Trainer) 
         assert all((row.epsilon_main, row.epsilon_nested) == (0.0, 0.0) for row in whole.episode_rows)
 
 
-def test_a_run_of_a_batch_is_the_same_run_trained_alone(whole: Trainer) -> None:
+def test_a_run_trains_the_same_alone_and_in_a_batch(whole: Trainer) -> None:
     alone = finish(trainer_of([BENT]))
     assert alone.episode_rows == [row for row in whole.episode_rows if row.trial == 0]
     assert alone.evaluation_rows == [row for row in whole.evaluation_rows if row.trial == 0]
@@ -117,7 +117,7 @@ def test_the_same_seed_trains_the_same_and_another_does_not(whole: Trainer) -> N
 
 
 @pytest.mark.parametrize("ticks", [1, 20, 57, 90])
-def test_a_saved_training_goes_on_to_the_bit(whole: Trainer, ticks: int) -> None:
+def test_a_resumed_training_continues_to_the_bit(whole: Trainer, ticks: int) -> None:
     first = ticked(trainer_of([BENT] * 2), ticks)
     assert not first.finished
     resumed = trainer_of([BENT] * 2)
@@ -132,7 +132,7 @@ def live_like() -> tuple[StartsOver, Trainer]:
 
 @pytest.mark.parametrize("breaks_in", [1, 3])
 @pytest.mark.parametrize("episodes", [0, 4])
-def test_an_episode_that_a_mishap_ends_leaves_no_trace(episodes: int, breaks_in: int) -> None:
+def test_an_episode_ended_by_a_mishap_leaves_no_trace(episodes: int, breaks_in: int) -> None:
     game, trainer = live_like()
     _, undisturbed = live_like()
     while len(trainer.episode_rows) + len(trainer.evaluation_rows) < episodes:
@@ -153,14 +153,14 @@ def test_an_episode_that_a_mishap_ends_leaves_no_trace(episodes: int, breaks_in:
     assert trainer.evaluation_rows == undisturbed.evaluation_rows
 
 
-def test_a_game_that_can_not_be_saved_half_way_goes_on_with_a_new_episode() -> None:
+def test_a_resumed_training_begins_a_new_episode_in_a_game_that_can_not_be_saved() -> None:
     (_, first), (_, resumed) = live_like(), live_like()
     resumed.load(*saved(ticked(first, 40)))
     assert [row.episode for row in finish(resumed).episode_rows] == list(range(1, SMALL.episodes + 1))
 
 
 class Changes(GridVectorEnv):
-    """Another design pays, after some episodes."""
+    """Arenas in which another design pays after some episodes."""
 
     def __init__(self, scenarios: Sequence[Scenario], later: Sequence[Scenario], after: int) -> None:
         super().__init__(scenarios)
@@ -187,7 +187,7 @@ def test_a_design_that_changes_in_mid_training_is_found_again() -> None:
 
 
 @pytest.mark.parametrize("seed", range(2))
-def test_where_actions_slip_the_policy_builds_the_design_where_they_do_not(seed: int) -> None:
+def test_a_policy_trained_with_slipping_actions_builds_the_design_without_slips(seed: int) -> None:
     trainer = finish(trainer_of([BENT], SMALL.model_copy(update={"episodes": 30}), seed, env=Slips([BENT], 0.05, seed)))
     played = play_greedily(GridVectorEnv([BENT]), [BENT], trainer.agent)
     assert [episode.score for episode in played] == [BENT.optimum]
@@ -196,7 +196,7 @@ def test_where_actions_slip_the_policy_builds_the_design_where_they_do_not(seed:
 @pytest.mark.slow
 @pytest.mark.parametrize("design", ["line", "zigzag", "diamond"])
 @pytest.mark.parametrize("seed", range(3))
-def test_where_actions_slip_live_learns_to_build_the_papers_designs(design: str, seed: int) -> None:
+def test_the_preset_model_based_learns_the_papers_designs_with_slipping_actions(design: str, seed: int) -> None:
     # Seed 0 once took a slip for what B does, at the far edge, and never tried it again.
     scenario = load_scenario(design)
     trainer = trainer_of([scenario], load_preset("model-based"), seed, env=Slips([scenario], 0.05, seed))
@@ -208,7 +208,7 @@ def test_where_actions_slip_live_learns_to_build_the_papers_designs(design: str,
         assert len(trainer.episode_rows) <= 40
 
 
-def test_a_policy_that_was_begun_from_is_evaluated_before_the_first_episode(whole: Trainer) -> None:
+def test_a_policy_to_begin_from_is_evaluated_before_the_first_episode(whole: Trainer) -> None:
     online = {role: kept[[0]] for role, kept in whole.agent.online().items()}
     trainer = trainer_of([BENT])
     trainer.begin_from(online)

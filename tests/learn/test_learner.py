@@ -20,7 +20,7 @@ def values(learner: Learner, states: list[list[int]]) -> np.ndarray:
     return learner.engine.q_values(learner.states.encoded(np.array(states)))
 
 
-def test_a_number_below_epsilon_explores_and_the_second_says_where() -> None:
+def test_a_number_below_epsilon_explores_and_a_second_number_picks_the_action() -> None:
     three = learner([[14, 14, 11]] * 3)
     states = np.array([[7, 14, 11]] * 3)
     greedy = three.act(states, np.zeros(3), np.zeros((3, 2)))
@@ -48,7 +48,7 @@ def test_learning_starts_with_the_first_full_batch() -> None:
     assert one.engine.updates.tolist() == [0, 1]
 
 
-def test_a_learner_learns_what_a_terminal_reward_is_worth() -> None:
+def test_a_learner_learns_the_values_of_terminal_rewards() -> None:
     one = learner([[14]], actions=2)
     row, random = np.array([0]), np.random.default_rng(0)
     state, over = np.array([[3]]), np.array([True])
@@ -60,7 +60,7 @@ def test_a_learner_learns_what_a_terminal_reward_is_worth() -> None:
     assert values(one, [[3]]).tolist()[0] == pytest.approx([-1.0, 4.0], abs=0.1)
 
 
-def test_what_follows_counts_by_gamma_unless_the_episode_terminated() -> None:
+def test_the_stored_discount_is_gamma_or_0_after_termination() -> None:
     one = learner([[14]])
     for over in (False, True):
         one.store(np.array([0]), np.array([[3]]), np.array([1]), np.array([1.0]), np.array([[4]]), np.array([over]))
@@ -83,7 +83,7 @@ def prioritized_imitator(share: int = 8) -> Learner:
     return one
 
 
-def test_beside_imitation_the_oldest_are_drawn_as_often_as_the_others() -> None:
+def test_old_and_new_transitions_are_drawn_equally_often_beside_imitation() -> None:
     one, random = prioritized_imitator(), np.random.default_rng(1)
     counts = np.zeros(121)
     for _ in range(200):
@@ -94,7 +94,7 @@ def test_beside_imitation_the_oldest_are_drawn_as_often_as_the_others() -> None:
         assert fifth == pytest.approx(200 * 24 / 5, rel=0.1)
 
 
-def test_what_is_imitated_changes_no_priority() -> None:
+def test_imitated_transitions_change_no_priorities() -> None:
     one, random = prioritized_imitator(), np.random.default_rng(1)
     assert one.priorities is not None
     for _ in range(50):
@@ -113,7 +113,7 @@ def test_what_is_imitated_changes_no_priority() -> None:
 
 
 @pytest.mark.parametrize(("weight", "learns"), [(0.0, False), (1.0, True)])
-def test_without_a_weight_td_errors_change_nothing(weight: float, learns: bool) -> None:
+def test_td_errors_change_the_networks_only_with_a_positive_weight(weight: float, learns: bool) -> None:
     imitation = Imitation(batch=8, margin=0.5, td_weight=weight), 60
     one = Learner(StateSpace(np.array([[14]]), 2), PAPER, [np.random.default_rng(0)], imitation)
     before = one.engine.online.copy()

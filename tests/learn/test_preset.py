@@ -1,4 +1,4 @@
-"""Presets: ``paper`` is docs/explanation/task.md's table, and a mistake is one line."""
+"""Presets: ``paper`` holds docs/explanation/task.md's table, and a mistake is refused in one line."""
 
 import re
 from pathlib import Path
@@ -10,7 +10,7 @@ from mc_nested.errors import PresetError
 from mc_nested.learn.preset import Exploration, Preset, Update, load_preset, parse_preset, shipped_presets
 
 
-def test_the_preset_paper_is_the_readmes_table() -> None:
+def test_the_preset_paper_has_the_papers_hyper_parameters() -> None:
     assert load_preset("paper") == Preset(
         episodes=3000,
         evaluate_every=30,
@@ -54,7 +54,7 @@ PAPER = (Path(__file__).parents[2] / "mc_nested/learn/presets/paper.toml").read_
         ),
     ],
 )
-def test_a_mistake_is_one_line_that_names_the_key(change: tuple[str, str], says: str) -> None:
+def test_a_mistake_is_refused_with_the_file_and_the_key(change: tuple[str, str], says: str) -> None:
     with pytest.raises(PresetError) as caught:
         parse_preset(PAPER.replace(*change, 1), "mine.toml")
     assert str(caught.value).startswith("mine.toml: ")
@@ -62,7 +62,7 @@ def test_a_mistake_is_one_line_that_names_the_key(change: tuple[str, str], says:
 
 
 def check_refused(text: str, change: tuple[str, str], says: str) -> None:
-    """Raise AssertionError unless that preset, with this change, is refused in one line which says so."""
+    """Raise AssertionError unless that preset, with this change, is refused in one line that holds ``says``."""
     assert change[0] in text
     with pytest.raises(PresetError) as caught:
         parse_preset(text.replace(*change, 1), "mine.toml")
@@ -86,7 +86,7 @@ TUNED = (Path(__file__).parents[2] / "mc_nested/learn/presets/tuned.toml").read_
         (("updates_an_episode = 50", ""), "main.updates_an_episode"),
     ],
 )
-def test_excursions_that_do_not_fit_the_rest_are_one_line(change: tuple[str, str], says: str) -> None:
+def test_mistakes_in_a_preset_with_excursions_are_refused_in_one_line(change: tuple[str, str], says: str) -> None:
     check_refused(TUNED, change, says)
 
 
@@ -119,31 +119,31 @@ MODEL_BASED = (Path(__file__).parents[2] / "mc_nested/learn/presets/model-based.
         (("[imagination]", "[imitation]\nbatch = 4\nmargin = 0.5\n[imagination]"), "needs a best episode"),
     ],
 )
-def test_what_does_not_fit_practice_in_a_learnt_game_is_one_line(change: tuple[str, str], says: str) -> None:
+def test_settings_that_do_not_fit_imagination_are_refused_in_one_line(change: tuple[str, str], says: str) -> None:
     check_refused(MODEL_BASED, change, says)
 
 
 @pytest.mark.parametrize("text", [PAPER, TUNED], ids=["paper", "tuned"])
-def test_only_practice_in_a_learnt_game_takes_an_input_for_each_cell(text: str) -> None:
+def test_the_cell_encoding_is_refused_without_imagination(text: str) -> None:
     other = re.sub(r'encoding = "[^"]*".*\n', "", text)
     with pytest.raises(PresetError, match="which only it can"):
         parse_preset(other.replace("[update]", 'encoding = "cell"\n[update]', 1), "mine.toml")
 
 
-def test_without_practice_the_main_agent_needs_its_epsilon() -> None:
+def test_a_preset_without_imagination_needs_explore_main() -> None:
     without = re.sub(r"\[explore_main\][^\[]*", "", PAPER)
     with pytest.raises(PresetError, match=r"\[explore_main\] goes with"):
         parse_preset(without, "mine.toml")
 
 
 @pytest.mark.parametrize("name", shipped_presets())
-def test_a_saved_preset_comes_back(name: str) -> None:
+def test_a_saved_preset_is_read_back_unchanged(name: str) -> None:
     preset = load_preset(name)
     saved = tomlkit.dumps(preset.model_dump(exclude_none=True))
     assert parse_preset(saved, "config.toml") == preset
 
 
-def test_an_unknown_name_lists_the_known_ones() -> None:
+def test_an_unknown_preset_name_is_refused_with_the_known_ones() -> None:
     with pytest.raises(PresetError, match="no preset 'papr': name one of image, model-based, paper, tuned"):
         load_preset("papr")
 
@@ -172,5 +172,5 @@ def test_the_main_agent_may_begin_to_learn_before_the_others() -> None:
         (("lowest_epsilon = 0.001", "lowest_epsilon = 0.001\nhighest = 1"), "imagination.highest"),
     ],
 )
-def test_an_imagination_that_does_not_fit_is_one_line(change: tuple[str, str], says: str) -> None:
+def test_mistakes_in_imagination_are_refused_in_one_line(change: tuple[str, str], says: str) -> None:
     check_refused(MODEL_BASED, change, says)

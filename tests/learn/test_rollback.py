@@ -30,7 +30,7 @@ def state_of(trainer: Trainer) -> Arrays:
     [(PAPERS, None), (RETURNS, "0.effects"), (SMALL, "0.steps")],
     ids=["none", "returns", "imagines"],
 )
-def test_what_an_episode_taught_is_undone(preset: Preset, remembers: str | None) -> None:
+def test_a_rollback_undoes_everything_an_episode_taught(preset: Preset, remembers: str | None) -> None:
     trainer = Trainer(GridVectorEnv([BENT]), [BENT], Agent(AGENT_SPECS["nested"], [BENT], preset, 0), preset, 0)
     while len(trainer.episode_rows) < 2:
         trainer.tick()

@@ -28,7 +28,7 @@ def test_a_runs_numbers_do_not_depend_on_the_runs_beside_it() -> None:
         np.testing.assert_array_equal(alone.at(tick)[0], beside.at(tick)[2])
 
 
-def test_seeds_runs_and_ticks_all_differ() -> None:
+def test_streams_differ_by_seed_run_and_tick() -> None:
     numbers = [Streams(seed, runs=range(3), width=4).at(tick).copy() for seed in (0, 1) for tick in TICKS]
     rows = [tuple(row) for drawn in numbers for row in drawn]
     assert len(set(rows)) == len(rows) == 2 * len(TICKS) * 3
@@ -47,7 +47,7 @@ def test_the_main_agents_batches_differ_by_seed_run_and_tick() -> None:
     assert drawn == [main_updates_stream(*way).random() for way in ways]
 
 
-def test_practice_differs_by_seed_run_and_episode_and_from_all_else() -> None:
+def test_practice_streams_differ_by_seed_run_and_episode_and_from_all_others() -> None:
     ways = [(seed, run, at) for seed in (0, 1) for run in (0, 1) for at in (0, 1, 5000)]
     drawn = [practice_stream(*way).random() for way in ways]
     others = [main_updates_stream(*way).random() for way in ways] + [initial_stream(0, 0).random()]
@@ -55,7 +55,7 @@ def test_practice_differs_by_seed_run_and_episode_and_from_all_else() -> None:
     assert drawn == [practice_stream(*way).random() for way in ways]
 
 
-def test_a_games_episode_and_what_is_learnt_from_it_differ_by_seed_run_and_number() -> None:
+def test_plan_episode_and_practice_streams_differ_by_seed_run_and_number() -> None:
     ways = [(seed, run, number) for seed in (0, 1) for run in (0, 1) for number in (0, 1, 5000)]
     drawn = [stream(*way).random() for stream in (plan_stream, episode_stream, practice_stream) for way in ways]
     assert len(set(drawn)) == 3 * len(ways)

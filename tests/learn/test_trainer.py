@@ -56,7 +56,7 @@ def test_epsilon_falls_with_the_episodes_of_each_run_and_is_the_same_after_loadi
     assert resumed.epsilon[0] == pytest.approx([0.01, 0.01])
 
 
-def test_a_training_of_a_billion_episodes_needs_no_more_memory() -> None:
+def test_a_training_of_a_billion_episodes_can_begin() -> None:
     trainer = trainer_of([LINE], SHORT.model_copy(update={"episodes": 10**9}))
     trainer.tick()
     assert trainer.epsilon[1].tolist() == [1.0]
@@ -105,7 +105,7 @@ def test_there_is_a_greedy_evaluation_every_5_episodes(three_runs: Trainer) -> N
         assert [row.episode for row in three_runs.evaluation_rows if row.trial == run] == [5, 10, 15, 20]
 
 
-def test_an_odd_number_of_episodes_ends_with_an_evaluation() -> None:
+def test_a_training_of_13_episodes_ends_with_an_evaluation() -> None:
     trainer = finish(trainer_of([LINE], SHORT.model_copy(update={"episodes": 13})))
     assert [row.episode for row in trainer.evaluation_rows] == [5, 10, 13]
 
@@ -120,7 +120,7 @@ def test_the_nested_agent_updates_once_a_step_and_the_main_agent_once_an_episode
     assert main_of(three_runs.agent).engine.updates.tolist() == [5] * 3
 
 
-def test_a_main_agent_of_its_own_table_learns_from_its_second_episode_on() -> None:
+def test_a_presets_main_table_lets_the_main_agent_learn_from_its_second_episode_on() -> None:
     preset = SHORT.model_copy(update={"episodes": 4, "main": MainUpdates(learning_starts=2, updates_an_episode=50)})
     agent = finish(trainer_of([LINE, LINE], preset)).agent
     assert main_of(agent).engine.updates.tolist() == [150] * 2
@@ -133,18 +133,18 @@ def test_a_main_agent_of_its_own_table_learns_from_its_second_episode_on() -> No
     np.testing.assert_array_equal(main_of(alone).engine.online[0], main_of(agent).engine.online[0])
 
 
-def test_a_main_agents_own_table_leaves_what_the_nested_agent_draws() -> None:
+def test_a_presets_main_table_does_not_change_the_nested_agents_random_numbers() -> None:
     preset = SHORT.model_copy(update={"episodes": 2, "evaluate_every": 10})
     with_table = preset.model_copy(update={"main": MainUpdates(learning_starts=2, updates_an_episode=3)})
     one, other = finish(trainer_of([LINE], preset)), finish(trainer_of([LINE], with_table))
     assert one.episode_rows == other.episode_rows
 
 
-def test_evaluations_are_neither_stored_nor_counted_as_training(three_runs: Trainer) -> None:
+def test_evaluation_steps_counts_the_steps_of_all_evaluations(three_runs: Trainer) -> None:
     assert three_runs.evaluation_steps == sum(row.steps for row in three_runs.evaluation_rows)
 
 
-def test_the_main_agents_one_transition_is_the_start_its_choice_and_the_score(three_runs: Trainer) -> None:
+def test_the_main_agent_stores_the_start_its_choice_and_the_score_of_each_episode(three_runs: Trainer) -> None:
     kept = kept_by(main_of(three_runs.agent), 1)
     rows = [row for row in three_runs.episode_rows if row.trial == 1]
     start = main_of(three_runs.agent).states.encoded(np.array([7, 14, 11]))
@@ -188,7 +188,7 @@ def test_runs_of_one_training_differ(three_runs: Trainer) -> None:
     assert by_run[0] != by_run[1] != by_run[2]
 
 
-def test_a_run_of_a_batch_is_the_same_run_trained_alone(three_runs: Trainer) -> None:
+def test_a_run_trains_the_same_alone_and_in_a_batch(three_runs: Trainer) -> None:
     alone = finish(trainer_of([LINE]))
     assert alone.episode_rows == [row for row in three_runs.episode_rows if row.trial == 0]
     for one, same in zip(weights(three_runs, 0), weights(alone, 0), strict=True):
@@ -196,14 +196,14 @@ def test_a_run_of_a_batch_is_the_same_run_trained_alone(three_runs: Trainer) -> 
 
 
 @pytest.mark.parametrize("ticks", [1, 200, 450])
-def test_a_saved_training_goes_on_to_the_bit(three_runs: Trainer, ticks: int) -> None:
+def test_a_resumed_training_continues_to_the_bit(three_runs: Trainer, ticks: int) -> None:
     resumed = trainer_of([LINE] * 3)
     resumed.load(*saved(ticked(trainer_of([LINE] * 3), ticks)))
     assert_same(finish(resumed), three_runs)
     assert (resumed.ticks, resumed.env_steps) == (three_runs.ticks, three_runs.env_steps)
 
 
-def test_a_game_that_can_not_be_saved_half_way_goes_on_with_a_new_episode() -> None:
+def test_a_resumed_training_begins_a_new_episode_in_a_game_that_can_not_be_saved() -> None:
     first, resumed = (trainer_in(ArenaVectorEnv([ArenaEnv(StartsOver(LINE), LINE)]), [LINE]) for _ in range(2))
     resumed.load(*saved(ticked(first, 100)))
     done = int(resumed.episodes_done[0])
@@ -216,24 +216,24 @@ def test_single_games_and_arrays_train_the_same(three_runs: Trainer) -> None:
     assert finish(trainer).episode_rows == three_runs.episode_rows
 
 
-def test_single_games_are_resumed_half_way_as_arrays_are(three_runs: Trainer) -> None:
+def test_single_games_resume_in_mid_episode_as_arrays_do(three_runs: Trainer) -> None:
     envs = [ArenaVectorEnv([arena_env(LINE) for _ in range(3)]) for _ in range(2)]
     first, resumed = (trainer_in(games, [LINE] * 3) for games in envs)
     resumed.load(*saved(ticked(first, 130)))
     assert finish(resumed).episode_rows == three_runs.episode_rows
 
 
-def test_a_gymnasium_wrapper_trains_the_same(three_runs: Trainer) -> None:
+def test_arenas_in_a_gymnasium_wrapper_train_the_same(three_runs: Trainer) -> None:
     trainer = trainer_in(RecordEpisodeStatistics(GridVectorEnv([LINE] * 3)), [LINE] * 3)
     assert finish(trainer).episode_rows == three_runs.episode_rows
 
 
-def test_designs_train_side_by_side() -> None:
+def test_different_designs_train_side_by_side() -> None:
     trainer = finish(trainer_of([LINE, DIAMOND], SHORT.model_copy(update={"episodes": 5})))
     assert [kept_by(trainer.agent.low_level, run)["states"][0, 0] // 2 % 17 for run in (0, 1)] == [11, 16]
 
 
-def test_a_run_that_stops_at_the_optimum_has_its_best_policy() -> None:
+def test_a_run_that_stops_at_the_optimum_keeps_a_policy_that_reaches_the_optimum() -> None:
     dot = Scenario("dot", frozenset({(7, 14)}), (7, 12), 4, LINE.materials)
     preset = SHORT.model_copy(update={"episodes": 400})
     trainer = finish(trainer_of([dot, dot], preset, stop_at_optimum=True))
@@ -245,7 +245,7 @@ def test_a_run_that_stops_at_the_optimum_has_its_best_policy() -> None:
     assert [episode.score for episode in play_greedily(env, [dot, dot], trainer.agent)] == [11.0, 11.0]
 
 
-def test_the_last_evaluation_is_what_the_saved_policy_plays(three_runs: Trainer) -> None:
+def test_the_trained_policy_plays_its_last_evaluation_again(three_runs: Trainer) -> None:
     played = play_greedily(GridVectorEnv([LINE] * 3), [LINE] * 3, three_runs.agent)
     last = {row.trial: row for row in three_runs.evaluation_rows}
     assert [episode.score for episode in played] == [last[run].score for run in range(3)]
@@ -272,7 +272,7 @@ def exploring() -> Trainer:
     return finish(trainer_of([LINE, DIAMOND], SCOUTING))
 
 
-def test_with_excursions_what_a_greedy_evaluation_did_is_remembered_but_not_stored() -> None:
+def test_excursions_remember_greedy_evaluations_without_storing_their_transitions() -> None:
     trainer = trainer_of([LINE], SCOUTING)
     trainer.begin_from({role: online[[0]] for role, online in trainer.agent.online().items()})
     excursions = trainer.practice
@@ -285,14 +285,14 @@ def test_with_excursions_what_a_greedy_evaluation_did_is_remembered_but_not_stor
     assert trainer.agent.updates == 0
 
 
-def test_excursions_find_more_than_chance_does(exploring: Trainer) -> None:
+def test_excursions_find_higher_scores_than_epsilon_exploration(exploring: Trainer) -> None:
     by_chance = finish(trainer_of([LINE, DIAMOND], SHORT.model_copy(update={"episodes": 60})))
     for run in (0, 1):
         best = [max(row.score for row in t.episode_rows if row.trial == run) for t in (exploring, by_chance)]
         assert best[0] > best[1]
 
 
-def test_where_actions_slip_the_best_episode_is_followed_only_from_its_own_states() -> None:
+def test_excursions_follow_the_best_episode_only_from_its_own_states_despite_slips() -> None:
     trainer = trainer_in(Slips([LINE], 0.1, seed=3), [LINE], SCOUTING)
     excursions = trainer.practice
     assert isinstance(excursions, Excursions)
@@ -325,7 +325,7 @@ def test_a_run_keeps_its_best_policy_where_the_preset_says_so(exploring: Trainer
     assert [episode.score for episode in played] == scores
 
 
-def test_a_training_begun_from_a_policy_keeps_it_until_it_has_one_of_its_own(exploring: Trainer) -> None:
+def test_a_training_begun_from_a_policy_keeps_that_policy_and_evaluates_first(exploring: Trainer) -> None:
     online = {role: kept[[0]] for role, kept in exploring.agent.online().items()}
     trainer = trainer_of([LINE, DIAMOND], SCOUTING)
     trainer.begin_from(online)
@@ -336,13 +336,13 @@ def test_a_training_begun_from_a_policy_keeps_it_until_it_has_one_of_its_own(exp
     assert trainer.evaluation_rows[0].episode == 0
 
 
-def test_there_are_as_many_updates_a_step_as_the_preset_says(exploring: Trainer) -> None:
+def test_the_preset_sets_the_number_of_updates_per_step(exploring: Trainer) -> None:
     steps = sum(row.steps for row in exploring.episode_rows)
     assert int(exploring.agent.low_level.engine.updates.sum()) == 2 * (steps - 2 * 15)
 
 
 @pytest.mark.parametrize("spec", [NESTED, HIERARCHICAL], ids=["nested", "hierarchical"])
-def test_excursions_can_be_saved_resumed_and_taken_out_of_a_batch(spec: AgentSpec) -> None:
+def test_excursions_resume_to_the_bit_and_train_the_same_alone(spec: AgentSpec) -> None:
     preset = SCOUTING.model_copy(update={"episodes": 15})
     whole, first, resumed = (trainer_of([LINE] * 2, preset, spec=spec) for _ in range(3))
     resumed.load(*saved(ticked(first, 333)))
@@ -352,7 +352,7 @@ def test_excursions_can_be_saved_resumed_and_taken_out_of_a_batch(spec: AgentSpe
     assert [row[1:] for row in alone.episode_rows] == [row[1:] for row in whole.episode_rows if row.trial == 1]
 
 
-def test_prioritized_replay_trains_and_resumes_to_the_bit_too() -> None:
+def test_a_training_with_prioritized_replay_resumes_to_the_bit() -> None:
     preset = SHORT.model_copy(update={"prioritized": Prioritized(alpha=0.6, beta=0.5)})
     whole, first, resumed = (trainer_of([LINE] * 2, preset) for _ in range(3))
     resumed.load(*saved(ticked(first, 400)))
@@ -372,7 +372,7 @@ class Fails(GridVectorEnv):
         return super().step(actions)
 
 
-def test_after_an_error_of_the_env_training_goes_on_with_a_new_episode() -> None:
+def test_training_goes_on_with_a_new_episode_after_an_error_of_the_env() -> None:
     trainer = trainer_in(Fails([LINE]), [LINE])
     with pytest.raises(ConnectionError):
         finish(trainer)
@@ -411,7 +411,7 @@ def test_an_abandoned_episode_is_never_learnt_from(spec: AgentSpec, preset: Pres
 
 @pytest.mark.parametrize("capacity", [40, 90, 1_000_000])
 @pytest.mark.parametrize("ticks_after", [3, 25, 70])
-def test_a_training_resumed_after_a_mishap_holds_the_transitions_of_the_one_that_went_on(
+def test_journals_around_a_mishap_restore_the_replay_of_the_training_that_went_on(
     capacity: int, ticks_after: int
 ) -> None:
     preset = FEW_EXCURSIONS.model_copy(update={"replay_capacity": capacity})
@@ -446,7 +446,9 @@ def test_a_training_resumed_after_a_mishap_holds_the_transitions_of_the_one_that
     ],
     ids=list(AGENT_SPECS),
 )
-def test_the_agents_train_2_and_3_and_1_networks(spec: AgentSpec, networks: int, parameters: int) -> None:
+def test_the_nested_hierarchical_and_single_agents_train_2_3_and_1_networks(
+    spec: AgentSpec, networks: int, parameters: int
+) -> None:
     agent = Agent(spec, [LINE], SHORT, 0)
     assert (agent.networks, agent.parameters) == (networks, parameters)
 
@@ -478,7 +480,7 @@ def test_the_single_agent_learns_from_its_choice_as_from_any_action() -> None:
 
 
 @pytest.mark.parametrize("spec", [HIERARCHICAL, SINGLE], ids=["hierarchical", "single"])
-def test_every_agents_training_can_be_repeated_and_resumed(spec: AgentSpec) -> None:
+def test_trainings_of_the_hierarchical_and_single_agents_resume_to_the_bit(spec: AgentSpec) -> None:
     whole, first, resumed = (trainer_of([LINE] * 2, spec=spec) for _ in range(3))
     resumed.load(*saved(ticked(first, 150)))
     assert_same(finish(resumed), finish(whole))
@@ -490,7 +492,7 @@ def test_every_agents_training_can_be_repeated_and_resumed(spec: AgentSpec) -> N
 
 
 @pytest.mark.parametrize("spec", AGENT_SPECS.values(), ids=list(AGENT_SPECS))
-def test_a_run_of_a_batch_of_any_agent_is_that_run_alone(spec: AgentSpec) -> None:
+def test_a_run_of_any_agent_trains_the_same_alone_and_in_a_batch(spec: AgentSpec) -> None:
     preset = SHORT.model_copy(update={"episodes": 10})
     beside, alone = finish(trainer_of([LINE] * 3, preset, spec=spec)), finish(trainer_of([LINE], preset, spec=spec))
     assert alone.episode_rows == [row for row in beside.episode_rows if row.trial == 0]

@@ -35,7 +35,9 @@ def trainer_of(agent_name: str, preset: Preset, scenarios: Sequence[Scenario], s
     ("agent_name", "preset"),
     [(name, preset) for name in AGENT_SPECS for preset in (IMAGE, PAPER)] + [("nested", TUNED)],
 )
-def test_a_training_can_be_repeated_resumed_and_played(agent_name: str, preset: Preset) -> None:
+def test_a_torch_training_resumes_to_the_bit_and_plays_its_last_evaluation_again(
+    agent_name: str, preset: Preset
+) -> None:
     scenarios = [SMALL] * 2
     whole, first, resumed = (trainer_of(agent_name, preset, scenarios) for _ in range(3))
     finish(whole)
@@ -52,7 +54,7 @@ def test_a_training_can_be_repeated_resumed_and_played(agent_name: str, preset: 
 
 @pytest.mark.parametrize("network", ["recurrent", "dropped"])
 @pytest.mark.parametrize("runs", [1, 2])
-def test_ones_own_network_is_trained_in_any_number_of_rows(network: str, runs: int) -> None:
+def test_a_users_network_is_trained_in_one_or_two_rows(network: str, runs: int) -> None:
     own = PAPER.changed(network=f"tests.learn.dqn.torch_engine.own_networks:{network}")
     agent = finish(trainer_of("nested", own, [SMALL] * runs)).agent
     assert agent.updates > 0
@@ -60,7 +62,7 @@ def test_ones_own_network_is_trained_in_any_number_of_rows(network: str, runs: i
     assert (np.abs(agent.low_level.engine.online - first).max(axis=1) > 0).all(), "each row has learnt"
 
 
-def test_a_run_alone_plays_its_first_episodes_as_beside_others() -> None:
+def test_a_run_plays_the_same_first_episodes_alone_and_beside_another() -> None:
     # Later they may differ: stacked products add up in another order.
     alone, both = trainer_of("nested", IMAGE, [SMALL]), trainer_of("nested", IMAGE, [SMALL] * 2)
     for trainer in (alone, both):
@@ -68,7 +70,7 @@ def test_a_run_alone_plays_its_first_episodes_as_beside_others() -> None:
     assert alone.episode_rows == [row for row in both.episode_rows if row.trial == 0]
 
 
-def test_an_image_in_a_replay_takes_a_byte_a_cell_of_each_plane() -> None:
+def test_an_image_in_a_replay_takes_one_byte_per_cell_and_plane() -> None:
     trainer = finish(trainer_of("nested", IMAGE, [SMALL]))
     kept = trainer.agent.transitions_since(None)
     assert kept["low.states"].dtype == np.uint8
@@ -83,13 +85,13 @@ def final_scores(preset: Preset, trials: int) -> Float64s:
 
 
 def p_of_one_distribution(one: Float64s, other: Float64s) -> float:
-    """Return the smaller p of two tests that both are of one distribution: of their means, and of any difference."""
+    """Return the smaller p of two tests of equal distributions: one of the means, and one of any difference."""
     means = stats.permutation_test((one, other), lambda a, b, axis: a.mean(axis) - b.mean(axis), rng=0).pvalue
     return float(min(means, stats.ks_2samp(one, other).pvalue))
 
 
 @pytest.mark.slow
-def test_on_the_line_both_engines_final_scores_are_of_one_distribution() -> None:
+def test_final_scores_of_both_engines_on_the_line_have_the_same_distribution() -> None:
     preset = load_preset("paper").model_copy(update={"episodes": 600, "evaluate_every": 600})
     compiled, torch = final_scores(preset, 20), final_scores(preset.changed(engine="torch"), 20)
     assert p_of_one_distribution(compiled, torch) > 0.05

@@ -23,7 +23,7 @@ def store(into: Training, *blocks: int) -> None:
         into.agent.low_level.store(np.array([0]), state, np.array([3]), np.ones(1), state, np.zeros(1, np.bool_))
 
 
-def test_parts_of_a_journal_put_together_are_the_whole_journal() -> None:
+def test_journals_saved_in_parts_restore_the_whole_training() -> None:
     whole, again = training(), training()
     whole.episode_rows.append(PLAYED[0])
     store(whole, 1, 0)

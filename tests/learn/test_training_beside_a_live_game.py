@@ -53,7 +53,7 @@ class Rounds:
 
 
 class PutsIn(Rounds):
-    """A background before whose work something is done."""
+    """A background that calls a function before its work begins."""
 
     def __init__(self, before: Callable[[], None]) -> None:
         super().__init__(0)
@@ -80,7 +80,7 @@ def are_the_same(one: Arrays, other: Arrays) -> bool:
     return all(np.array_equal(one[name], other[name]) for name in one)
 
 
-def test_with_time_enough_it_plays_the_simulators_episodes() -> None:
+def test_a_live_training_with_enough_practice_time_plays_the_simulators_episodes() -> None:
     agent = Agent(AGENT_SPECS["nested"], [LINE], LIVE, 0)
     simulated = finish(Trainer(GridVectorEnv([LINE]), [LINE], agent, LIVE, 0))
     beside = finish(training(Rounds(ENOUGH)))
@@ -96,7 +96,7 @@ def test_an_episode_that_begins_before_practice_is_over_is_a_training_episode() 
     assert trainer.agent.low_level.engine.updates.tolist() == [0]
 
 
-def test_what_was_practised_within_an_episode_is_taken_over_before_the_next_reset() -> None:
+def test_networks_practised_during_an_episode_are_taken_over_before_the_next_reset() -> None:
     trainer = training(Rounds(0, beside_episode=ENOUGH))
     while len(trainer.episode_rows) < 2:
         trainer.tick()
@@ -105,7 +105,7 @@ def test_what_was_practised_within_an_episode_is_taken_over_before_the_next_rese
     assert trainer.agent.low_level.engine.updates[0] > 0
 
 
-def test_a_reset_that_fails_ends_the_practice_and_the_training_goes_on() -> None:
+def test_a_failed_reset_ends_the_practice_and_the_training_goes_on() -> None:
     game = Slow(LINE)
     trainer = training(game=game)
     while not trainer.episode_rows:
@@ -142,7 +142,7 @@ def test_practice_runs_in_a_thread_while_the_game_resets() -> None:
     assert updates > 0
 
 
-def test_a_spoiled_episode_leaves_the_networks_that_were_put_in_to_play_it() -> None:
+def test_abandoning_an_episode_restores_the_networks_put_in_to_play_the_episode() -> None:
     begun = 0
 
     def best_are_put_in() -> None:
@@ -164,7 +164,7 @@ def test_a_spoiled_episode_leaves_the_networks_that_were_put_in_to_play_it() -> 
     assert np.all(trainer.agent.low_level.engine.online == begun)
 
 
-def test_a_spoiled_episode_leaves_what_was_practised_before_and_beside_it_and_nothing_of_its_own() -> None:
+def test_an_abandoned_episode_keeps_earlier_practice_and_nothing_of_its_own_steps() -> None:
     game = Slow(LINE)
     trainer = training(Rounds(2, beside_episode=1), game)
     while len(trainer.episode_rows) < 2:

@@ -20,7 +20,7 @@ def area_of(path: Path, color: str) -> int:
     return int((picture == wanted).all(axis=2).sum())
 
 
-def test_each_belief_has_the_area_of_its_cells(tmp_path: Path) -> None:
+def test_each_belief_is_drawn_with_the_area_of_its_cells(tmp_path: Path) -> None:
     draw_map(tmp_path / "map.png", "line", made_known_arena(episodes=0))
     believed = area_of(tmp_path / "map.png", COLORS[Belief.BELIEVED])
     unknown = area_of(tmp_path / "map.png", COLORS[Belief.UNKNOWN])
@@ -28,7 +28,7 @@ def test_each_belief_has_the_area_of_its_cells(tmp_path: Path) -> None:
     assert unknown / believed == pytest.approx(12, rel=0.1)
 
 
-def test_an_episode_has_a_bar_of_what_its_blocks_were_spent_on(tmp_path: Path) -> None:
+def test_each_episode_has_a_bar_of_how_its_blocks_were_spent(tmp_path: Path) -> None:
     draw_map(tmp_path / "none.png", "line", made_known_arena(episodes=0))
     draw_map(tmp_path / "map.png", "line", made_known_arena(episodes=3))
     # Of each colour (1, 2, 3), (1, 1, 1), (1, 1, 1) and (1, 1, 1) blocks in three episodes.
@@ -39,7 +39,7 @@ def test_an_episode_has_a_bar_of_what_its_blocks_were_spent_on(tmp_path: Path) -
 
 
 @pytest.mark.parametrize("size", [4, 32])
-def test_an_arena_of_any_size_is_a_picture_of_the_same_size(tmp_path: Path, size: int) -> None:
+def test_the_map_of_any_arena_has_the_same_picture_size(tmp_path: Path, size: int) -> None:
     draw_map(tmp_path / "map.png", "a $ in a name", made_known_arena(size, episodes=100))
     picture = cv2.imread(str(tmp_path / "map.png"))
     assert picture is not None

@@ -53,11 +53,11 @@ def test_every_arena_fills_the_same_square(arena_px: int, size: int, px: int) ->
     ],
     ids=["another step", "a block", "another material"],
 )
-def test_the_words_tell_the_step_the_blocks_and_the_material(changed: Moment) -> None:
+def test_the_caption_changes_with_the_step_the_blocks_and_the_material(changed: Moment) -> None:
     assert (words_of(draw_moment(LINE, changed)) != words_of(draw_moment(LINE, START))).any()
 
 
-def test_the_words_say_nothing_of_where_the_agent_stands() -> None:
+def test_the_caption_does_not_depend_on_the_agents_cell() -> None:
     elsewhere = draw_moment(LINE, Moment((3, 3), (), 0, STONE, 10.0))
     np.testing.assert_array_equal(words_of(elsewhere), words_of(draw_moment(LINE, START)))
 
@@ -71,7 +71,7 @@ def test_a_long_name_ends_before_the_edge() -> None:
     np.testing.assert_array_equal(words[:, -MARGIN - STEP_PX :], plain[:, -MARGIN - STEP_PX :])
 
 
-def test_a_window_stands_beside_the_arena_as_high_as_it_is() -> None:
+def test_a_window_is_drawn_beside_the_arena_at_the_arenas_height() -> None:
     picture, window = draw_moment(LINE, START), flat((9, 99, 199), 1280, 720)
     box = box_for(window)
     assert box == (round(ARENA_PX * 16 / 9), ARENA_PX)

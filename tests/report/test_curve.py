@@ -21,13 +21,13 @@ def test_a_trial_that_finished_early_keeps_its_last_score() -> None:
     assert align_trials(rows, trials=2)[1].tolist() == [[21.0, 21.0, 21.0], [4.0, 6.0, 21.0]]
 
 
-def test_without_an_evaluation_of_every_trial_there_is_nothing_to_show() -> None:
+def test_no_scores_are_shown_before_every_trial_has_an_evaluation() -> None:
     episodes, scores = align_trials([(0, 30, 5.0)], trials=2)
     assert episodes == []
     assert scores.shape == (2, 0)
 
 
-def test_the_interval_holds_the_mean_and_narrows_to_it_where_all_agree() -> None:
+def test_the_interval_is_students_t_and_has_no_width_where_all_scores_agree() -> None:
     scores = np.array([[1.0, 5.0], [3.0, 5.0], [2.0, 5.0], [6.0, 5.0]])
     low, high = t_interval(scores)
     # Deviation sqrt(14 / 3) of four, and t with three degrees of freedom is 3.1824 at 0.975.
@@ -35,7 +35,7 @@ def test_the_interval_holds_the_mean_and_narrows_to_it_where_all_agree() -> None
     assert (low[1], high[1]) == (pytest.approx(5.0), pytest.approx(5.0))
 
 
-def test_the_interval_is_about_two_standard_errors_wide() -> None:
+def test_the_interval_reaches_about_two_standard_errors_from_the_mean() -> None:
     scores = np.random.default_rng(0).normal(0, 1, (400, 1))
     low, high = t_interval(scores)
     assert high[0] - low[0] == pytest.approx(2 * 1.96 / 20, rel=0.15)
@@ -49,7 +49,9 @@ def test_the_interval_ends_at_the_highest_score() -> None:
 
 @pytest.mark.parametrize("trials", [1, 5])
 @pytest.mark.parametrize("evaluations", [0, 1, 20])
-def test_a_curve_is_drawn_as_a_picture(tmp_path: Path, trials: int, evaluations: int) -> None:
+def test_a_curve_of_any_number_of_trials_and_evaluations_is_drawn(
+    tmp_path: Path, trials: int, evaluations: int
+) -> None:
     path = tmp_path / "curve.png"
     episodes = [30 * (index + 1) for index in range(evaluations)]
     draw_curve(path, "line", episodes, np.random.default_rng(0).random((trials, evaluations)) * 21, 21.0)

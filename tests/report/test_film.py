@@ -35,7 +35,7 @@ def test_every_picture_is_shown_until_the_next_one_and_the_last_one_a_while(kind
 
 
 @KINDS
-def test_times_between_two_frames_do_not_add_up_to_a_drift(kind: str, tmp_path: Path) -> None:
+def test_times_between_two_frames_do_not_make_a_film_drift(kind: str, tmp_path: Path) -> None:
     path = tmp_path / f"film{kind}"
     with open_film(path) as film:
         for number in range(31):
@@ -44,7 +44,7 @@ def test_times_between_two_frames_do_not_add_up_to_a_drift(kind: str, tmp_path: 
 
 
 @KINDS
-def test_a_film_that_begins_anew_shows_nothing_of_before(kind: str, tmp_path: Path) -> None:
+def test_a_film_that_begins_anew_shows_no_earlier_pictures(kind: str, tmp_path: Path) -> None:
     path = tmp_path / f"film{kind}"
     with open_film(path) as film:
         film.show(RED, 0.0)
@@ -57,7 +57,7 @@ def test_a_film_that_begins_anew_shows_nothing_of_before(kind: str, tmp_path: Pa
 
 @KINDS
 @pytest.mark.parametrize("error", [LiveError("it lagged"), KeyboardInterrupt(), OSError("another file"), SystemExit(3)])
-def test_a_film_that_an_error_ends_is_a_whole_film(kind: str, error: BaseException, tmp_path: Path) -> None:
+def test_a_film_ended_by_an_error_is_complete(kind: str, error: BaseException, tmp_path: Path) -> None:
     path = tmp_path / f"film{kind}"
 
     def play() -> None:
@@ -74,9 +74,7 @@ def test_a_film_that_an_error_ends_is_a_whole_film(kind: str, error: BaseExcepti
 
 @KINDS
 @pytest.mark.parametrize("error", [LiveError("it lagged"), OSError("another file")])
-def test_where_nothing_was_shown_there_is_no_film_and_an_earlier_one_stays(
-    kind: str, error: Exception, tmp_path: Path
-) -> None:
+def test_a_film_without_pictures_leaves_an_earlier_film_in_place(kind: str, error: Exception, tmp_path: Path) -> None:
     path = tmp_path / f"film{kind}"
     path.write_bytes(b"an earlier film")
     with pytest.raises(type(error)) as caught, open_film(path):
@@ -89,7 +87,7 @@ def test_where_nothing_was_shown_there_is_no_film_and_an_earlier_one_stays(
 
 
 @KINDS
-def test_a_picture_of_any_size_will_do(kind: str, tmp_path: Path) -> None:
+def test_pictures_of_odd_sizes_can_be_filmed(kind: str, tmp_path: Path) -> None:
     path = tmp_path / f"film{kind}"
     with open_film(path) as film:
         film.show(flat((200, 20, 20), 33, 25), 0.0)
@@ -108,7 +106,7 @@ def test_a_picture_of_any_size_will_do(kind: str, tmp_path: Path) -> None:
         ("file/film.gif", "file is no folder"),
     ],
 )
-def test_a_path_that_can_not_become_a_film_is_refused_before_anything_is_played(
+def test_a_path_that_can_not_become_a_film_is_refused_and_nothing_is_written(
     name: str, says: str, tmp_path: Path
 ) -> None:
     (tmp_path / "folder.gif").mkdir()
@@ -138,7 +136,7 @@ def test_a_folder_that_nobody_may_write_to_is_refused(tmp_path: Path, monkeypatc
         check_film(tmp_path / "film.gif")
 
 
-def test_without_imageio_ffmpeg_an_mp4_names_the_extra_and_a_gif_needs_nothing(
+def test_a_missing_imageio_ffmpeg_refuses_an_mp4_with_the_install_command_but_no_gif(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setitem(sys.modules, "imageio_ffmpeg", None)
@@ -156,7 +154,7 @@ def test_without_imageio_ffmpeg_an_mp4_names_the_extra_and_a_gif_needs_nothing(
         (".mp4", lambda patch: patch.setattr("os.fsync", full_disk)),
     ],
 )
-def test_a_disk_that_fills_up_is_one_line_and_leaves_the_earlier_film(
+def test_a_disk_that_fills_up_is_reported_and_leaves_the_earlier_film(
     kind: str, fail: Callable[[pytest.MonkeyPatch], None], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     path = tmp_path / f"film{kind}"

@@ -16,7 +16,7 @@ from tests.report.films import BLUE, GREEN, RED, pictures_of, shown
 LINE = load_scenario("line")
 
 
-def test_the_same_picture_again_is_shown_longer(tmp_path: Path) -> None:
+def test_a_repeated_picture_is_shown_longer(tmp_path: Path) -> None:
     path = tmp_path / "film.gif"
     encoder = GifEncoder(path, 10)
     for picture, count in ((RED, 3), (RED.copy(), 2), (GREEN, 1)):
@@ -34,7 +34,7 @@ def test_a_gif_repeats_for_ever(tmp_path: Path) -> None:
         assert image.info["loop"] == 0
 
 
-def test_a_noisy_window_crowds_out_none_of_the_arenas_colours(tmp_path: Path) -> None:
+def test_a_noisy_window_does_not_distort_the_arenas_colours(tmp_path: Path) -> None:
     path = tmp_path / "film.gif"
     arena = draw_picture(LINE, LINE.start, {(7, 5), (0, 0)}, 16)
     noise = np.random.default_rng(0).integers(0, 255, (240, 900, 3)).astype(np.uint8)
@@ -47,7 +47,7 @@ def test_a_noisy_window_crowds_out_none_of_the_arenas_colours(tmp_path: Path) ->
     assert np.abs(kept[:, :240].astype(int) - arena)[flat].max() <= 8
 
 
-def test_later_colours_are_shown_as_closely_as_the_first_ones(tmp_path: Path) -> None:
+def test_colours_of_later_pictures_are_shown_closely_too(tmp_path: Path) -> None:
     path = tmp_path / "film.gif"
     shown = [draw_picture(LINE, LINE.start, placed, 24) for placed in ((), {(7, 5)}, {(7, 5), (0, 0)})]
     encoder = GifEncoder(path, 10)
@@ -58,7 +58,7 @@ def test_later_colours_are_shown_as_closely_as_the_first_ones(tmp_path: Path) ->
         assert np.abs(kept.astype(int) - picture).max() <= 12
 
 
-def test_ffmpegs_own_message_says_why_a_film_can_not_be_written(tmp_path: Path) -> None:
+def test_the_error_holds_ffmpegs_message_when_a_film_can_not_be_written(tmp_path: Path) -> None:
     encoder = Mp4Encoder(tmp_path / "none" / "film.mp4", 10)
     encoder.add(RED, 3)
     with pytest.raises(OSError, match="No such file or directory"):
@@ -66,7 +66,7 @@ def test_ffmpegs_own_message_says_why_a_film_can_not_be_written(tmp_path: Path) 
     encoder.stop()
 
 
-def test_a_film_whose_ffmpeg_is_gone_is_given_up_and_nothing_is_left(tmp_path: Path) -> None:
+def test_a_film_whose_ffmpeg_was_killed_raises_and_leaves_no_file(tmp_path: Path) -> None:
     def play() -> None:
         with open_film(tmp_path / "film.mp4") as film:
             film.show(RED, 0.0)
@@ -82,7 +82,7 @@ def test_a_film_whose_ffmpeg_is_gone_is_given_up_and_nothing_is_left(tmp_path: P
     assert list(tmp_path.iterdir()) == []
 
 
-def test_a_film_that_is_stopped_ends_ffmpeg(tmp_path: Path) -> None:
+def test_stopping_a_film_ends_ffmpeg(tmp_path: Path) -> None:
     encoder = Mp4Encoder(tmp_path / "film.mp4", 10)
     encoder.add(RED, 3)
     ffmpeg = encoder._ffmpeg
@@ -92,14 +92,14 @@ def test_a_film_that_is_stopped_ends_ffmpeg(tmp_path: Path) -> None:
     encoder.stop()
 
 
-def test_without_a_picture_there_is_nothing_to_end(tmp_path: Path) -> None:
+def test_finishing_a_film_without_pictures_writes_nothing(tmp_path: Path) -> None:
     encoder = Mp4Encoder(tmp_path / "film.mp4", 10)
     encoder.finish()
     encoder.stop()
     assert list(tmp_path.iterdir()) == []
 
 
-def test_a_finished_film_is_whole_even_if_it_is_stopped_afterwards(tmp_path: Path) -> None:
+def test_stopping_a_finished_film_leaves_the_film_complete(tmp_path: Path) -> None:
     path = tmp_path / "film.mp4"
     encoder = Mp4Encoder(path, 10)
     encoder.add(RED, 5)

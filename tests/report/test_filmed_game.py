@@ -65,7 +65,7 @@ def test_the_film_shows_the_start_and_every_step() -> None:
     assert film.times == [0.0, FIRST_S, FIRST_S + STEP_S, FIRST_S + 2 * STEP_S]
 
 
-def test_a_build_of_eleven_blocks_takes_about_ten_seconds() -> None:
+def test_a_film_of_building_eleven_blocks_takes_six_to_ten_seconds() -> None:
     film, game = begun()
     for action in build(LINE):
         game.act(action)
@@ -81,7 +81,7 @@ def test_an_episode_that_starts_over_begins_the_film_anew() -> None:
     assert at == 0.0
 
 
-def test_a_window_is_shown_beside_as_it_is_after_each_step_and_in_its_own_time() -> None:
+def test_the_window_is_shown_beside_the_arena_after_each_step_at_its_own_time() -> None:
     windows = [flat((1, 2, 3), 64, 36), flat((50, 60, 70), 64, 36), flat((0, 0, 9), 36, 64)]
     pictures, times = iter(windows), iter([100.0, 100.0, 100.4, 101.7])
     film = NotedFilm()
@@ -96,6 +96,6 @@ def test_a_window_is_shown_beside_as_it_is_after_each_step_and_in_its_own_time()
         np.testing.assert_array_equal(picture, beside(moment, windows[step], box))
 
 
-def test_an_episode_that_is_filmed_can_not_be_continued_from_its_middle() -> None:
+def test_a_filmed_game_is_not_resumable_and_has_no_log() -> None:
     assert FilmedGame(GridGame(LINE), LINE, NotedFilm()).resumable is None
     assert FilmedGame(GridGame(LINE), LINE, NotedFilm()).log is None

@@ -1,4 +1,4 @@
-"""Minutes of game time: of what was played, and of what a training should take."""
+"""Minutes of game time: those played, and those that a training should take."""
 
 import pytest
 
@@ -13,7 +13,7 @@ def test_game_time_counts_actions_and_resets() -> None:
     assert minutes_of(4, 120) == pytest.approx((120 * 0.35 + 4 * 1.5) / 60)
 
 
-def test_an_imagination_needs_as_many_episodes_as_finding_the_design_without_a_prior() -> None:
+def test_a_training_with_imagination_should_take_the_episodes_expected_without_a_prior() -> None:
     found = expected(load_preset("model-based"), LINE, stop_at_optimum=True)
     # 11 blocks in 210 cells: 211 / 12 + 1 episodes of up to 60 actions.
     assert found.episodes == 19
@@ -23,17 +23,17 @@ def test_an_imagination_needs_as_many_episodes_as_finding_the_design_without_a_p
     )
 
 
-def test_a_preset_of_fewer_episodes_takes_no_more() -> None:
+def test_a_presets_episodes_limit_the_expected_episodes() -> None:
     few = load_preset("model-based").model_copy(update={"episodes": 5})
     assert expected(few, LINE, stop_at_optimum=True).episodes == 6
 
 
-def test_all_episodes_are_played_where_nothing_stops_it() -> None:
+def test_all_episodes_count_without_a_stop_at_the_optimum() -> None:
     live = load_preset("model-based")
     assert expected(live, LINE, stop_at_optimum=False).episodes >= live.episodes
 
 
-def test_without_an_imagination_every_episode_and_evaluation_counts_and_the_optimum_may_end_it_sooner() -> None:
+def test_a_training_without_imagination_should_take_all_its_episodes_and_evaluations() -> None:
     paper = load_preset("paper")
     found = expected(paper, LINE, stop_at_optimum=False)
     assert found.episodes == paper.episodes + paper.episodes // paper.evaluate_every

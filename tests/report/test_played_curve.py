@@ -10,7 +10,7 @@ from mc_nested.learn.episode_log import EpisodeRow, EvaluationRow
 from mc_nested.report.played_curve import EVALUATED, draw_played_curve, played_by
 
 
-def test_an_evaluation_comes_after_the_episode_of_its_number_and_each_takes_its_time() -> None:
+def test_an_evaluation_follows_the_episode_of_its_number_and_takes_game_time() -> None:
     episodes = [EpisodeRow(0, number, float(number), 0, 60, 0.0, 0.0) for number in (1, 2)]
     episodes.append(EpisodeRow(1, 1, 7.0, 0, 10, 0.0, 0.0))
     evaluations = [EvaluationRow(0, 0, -1.0, 0, 10), EvaluationRow(0, 1, 21.0, 0, 20)]
@@ -22,7 +22,7 @@ def test_an_evaluation_comes_after_the_episode_of_its_number_and_each_takes_its_
     assert (other.scores.tolist(), other.greedy.tolist()) == ([7.0], [False])
 
 
-def test_a_trial_without_an_episode_has_none() -> None:
+def test_a_trial_without_episodes_has_an_empty_curve() -> None:
     (none,) = played_by([], [], 1)
     assert (none.scores.shape, none.greedy.shape, none.minutes.shape) == ((0,), (0,), (0,))
 
@@ -51,6 +51,6 @@ def test_every_evaluation_is_a_point_in_both_panels(tmp_path: Path, trials: int)
     assert areas[1] == pytest.approx(2 * areas[0], rel=0.1)
 
 
-def test_before_the_first_episode_there_is_a_picture_too(tmp_path: Path) -> None:
+def test_a_curve_is_drawn_before_the_first_episode(tmp_path: Path) -> None:
     draw_played_curve(tmp_path / "curve.png", "a $ in a name", played_by([], [], 1), 21.0)
     assert evaluated_area(tmp_path / "curve.png") > 0

@@ -41,7 +41,7 @@ def test_every_run_has_its_scores_epsilon_loss_values_and_rate(tmp_path: Path, a
         assert all(event.value >= 0 for event in found.Scalars("loss/low"))
 
 
-def test_what_was_evaluated_before_is_not_written_again(tmp_path: Path) -> None:
+def test_earlier_evaluations_are_not_written_again(tmp_path: Path) -> None:
     trainer = trainer_of([LINE])
     for _ in range(2):
         board = TensorBoard([tmp_path], trainer)
@@ -52,13 +52,13 @@ def test_what_was_evaluated_before_is_not_written_again(tmp_path: Path) -> None:
     assert [event.step for event in read(tmp_path).Scalars("score/greedy")] == [5, 10, 15, 20]
 
 
-def test_nothing_is_written_where_tensorboard_is_not_installed(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_is_installed_says_whether_tensorboard_is_installed(monkeypatch: pytest.MonkeyPatch) -> None:
     assert tensorboard.is_installed()
     monkeypatch.setattr("importlib.util.find_spec", lambda _: None)
     assert not tensorboard.is_installed()
 
 
-def test_the_rate_is_the_updates_since_the_last_write_by_the_seconds_since_then(
+def test_the_rate_is_the_updates_per_second_since_the_last_write(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     times = iter([100.0, 102.0, 105.0])

@@ -1,4 +1,4 @@
-"""The map in a terminal: every belief has its sign, and what was built last shows whether it pays."""
+"""The map in a terminal: every belief has its sign, and the last built cells show whether they pay."""
 
 from rich.console import Console
 
@@ -6,7 +6,7 @@ from mc_nested.report.terminal_map import map_view
 from tests.report.made_known_arena import made_known_arena
 
 
-def test_every_belief_and_what_was_built_last_have_their_signs() -> None:
+def test_every_belief_and_the_last_built_cells_have_their_signs() -> None:
     console = Console(width=80, force_terminal=False)
     with console.capture() as capture:
         console.print(map_view(made_known_arena()))
@@ -16,7 +16,7 @@ def test_every_belief_and_what_was_built_last_have_their_signs() -> None:
     assert len(lines) == 5
 
 
-def test_a_narrow_terminal_has_the_whole_legend_in_two_lines() -> None:
+def test_a_narrow_terminal_shows_the_whole_legend_in_two_lines() -> None:
     console = Console(width=50, force_terminal=False)
     with console.capture() as capture:
         console.print(map_view(made_known_arena()))

@@ -1,4 +1,4 @@
-"""An ablation: what its parts are, and what trains together."""
+"""An ablation: its parts, and which trials train together."""
 
 import pytest
 
@@ -26,12 +26,12 @@ def config(*scenarios: Scenario) -> StudyConfig:
     return config_of("ablation", list(shipped(*scenarios).values()), trials=2, seed=0, jobs=2)
 
 
-def test_the_first_part_is_the_preset_live_as_it_is() -> None:
+def test_the_first_part_is_the_unchanged_preset_model_based() -> None:
     first = next(iter(PARTS.values()))
     assert (first.name, first.preset) == ("model-based as it is", LIVE)
 
 
-def test_every_part_changes_its_base_and_no_two_are_alike() -> None:
+def test_every_ablated_part_changes_its_base_and_no_two_parts_are_alike() -> None:
     for part in PARTS.values():
         base = LIVE if part.preset_name == "model-based" else load_preset(part.preset_name)
         assert (part.preset == base) == part.name.endswith("as it is"), part.name
@@ -48,20 +48,20 @@ def test_every_part_changes_its_base_and_no_two_are_alike() -> None:
         ("narrow exploration", {"highest_epsilon": 0.1, "lowest_epsilon": 0.1}),
     ],
 )
-def test_one_part_of_the_imagination_is_off(name: str, off: dict[str, object]) -> None:
+def test_each_imagination_part_turns_off_only_its_own_settings(name: str, off: dict[str, object]) -> None:
     assert LIVE.imagination is not None
     rule = LIVE.imagination.model_copy(update=off)
     assert PARTS[name].preset == LIVE.model_copy(update={"imagination": rule})
 
 
-def test_the_model_free_preset_loses_its_imitation_or_its_td_errors() -> None:
+def test_parts_of_the_preset_tuned_drop_imitation_or_td_errors() -> None:
     assert PARTS["tuned without imitation"].preset == load_preset("tuned").model_copy(update={"imitation": None})
     alone = PARTS["tuned, imitation only"].preset.imitation
     assert alone is not None
     assert alone.td_weight == 0.0
 
 
-def test_there_is_no_imitation_in_any_part_of_live() -> None:
+def test_no_part_of_the_preset_model_based_has_imitation() -> None:
     assert all(part.preset.imitation is None for part in PARTS.values() if part.preset_name == "model-based")
 
 
@@ -79,13 +79,13 @@ def test_every_trial_of_every_part_on_every_design_is_trained_once() -> None:
     assert not any(job.library for job in jobs)
 
 
-def test_what_practises_trains_one_by_one_and_the_rest_side_by_side() -> None:
+def test_trials_with_imagination_train_one_by_one_and_others_side_by_side() -> None:
     for job in config(DOT).cut():
         part = PARTS[job.groups[0]]
         assert len(job.trials) == (1 if part.preset_name == "model-based" else 2), part.name
 
 
-def test_the_episodes_that_are_asked_for_are_those_of_every_part() -> None:
+def test_the_episodes_option_applies_to_every_part() -> None:
     assert {part.preset.episodes for part in shipped(DOT, episodes=7).values()} == {7}
 
 

@@ -1,4 +1,4 @@
-"""What the trials of an ablation come to: measures, table, figure."""
+"""The report of an ablation: measures, table, figure."""
 
 import math
 from dataclasses import replace
@@ -47,7 +47,7 @@ def cells_of(name: str) -> list[str]:
     return [cell.strip() for cell in line.replace(r"\|", "/")[1:-1].split("|")]
 
 
-def test_the_parts_are_in_their_order_with_their_own_trials() -> None:
+def test_measures_keep_the_order_of_parts_and_their_own_trials() -> None:
     assert list(FOUND) == ["whole", "no | hope", "old"]
     assert FOUND["whole"].played.tolist() == [5, 7, 6, 9]
     assert (FOUND["whole"].solved, FOUND["whole"].median, FOUND["whole"].worst) == (4, 6.5, 9)
@@ -60,7 +60,7 @@ def test_a_trial_that_was_never_at_the_optimum_counts_as_infinite() -> None:
     assert hopeless.best_score == 21.0
 
 
-def test_the_interval_of_a_median_holds_it_and_lies_within_the_trials() -> None:
+def test_a_medians_interval_contains_the_median_and_lies_within_the_trials() -> None:
     interval = FOUND["old"].interval
     assert interval is not None
     assert 30 <= interval.low <= FOUND["old"].median <= interval.high <= 200
@@ -69,21 +69,21 @@ def test_the_interval_of_a_median_holds_it_and_lies_within_the_trials() -> None:
     assert hopeless.high == math.inf
 
 
-def test_a_line_has_the_figures_of_its_part() -> None:
+def test_each_table_line_has_the_figures_of_its_part() -> None:
     assert cells_of("whole")[:3] == ["whole", "", "4 of 4"]
     assert cells_of("whole")[3].startswith("6.5 (5 to ")
     assert cells_of("whole")[4:] == ["9", "21", "1,500", "200"]
     assert cells_of("old")[-1] == "3,000"
 
 
-def test_never_is_infinite_and_a_name_breaks_no_table() -> None:
+def test_the_table_shows_never_as_infinity_and_escapes_bars_in_names() -> None:
     cells = cells_of(r"no \| hope")
     assert cells[:3] == ["no / hope", "nothing is imagined to pay", "1 of 4"]
     assert cells[3].startswith("∞")
     assert cells[4] == "∞"
 
 
-def test_it_says_that_there_is_no_imitation_in_live() -> None:
+def test_the_report_says_that_model_based_has_no_imitation() -> None:
     assert "`model-based` is double Q-learning alone: there is no imitation in it" in TEXT
     assert "4 trials of each line on each design, seed 0" in TEXT
     assert "](ablation.png)" in TEXT
@@ -98,7 +98,7 @@ def test_the_same_trials_give_the_same_files(tmp_path: Path) -> None:
         assert (tmp_path / "one" / name).read_bytes() == (tmp_path / "two" / name).read_bytes()
 
 
-def test_the_rows_hold_every_trial_and_leave_never_empty(tmp_path: Path) -> None:
+def test_the_csv_file_has_a_row_per_trial_and_an_empty_cell_for_never(tmp_path: Path) -> None:
     write_report(tmp_path, STUDY, REPORT)
     rows = table(tmp_path / "ablation.csv")
     assert tuple(rows[0]) == COLUMNS
@@ -107,7 +107,7 @@ def test_the_rows_hold_every_trial_and_leave_never_empty(tmp_path: Path) -> None
     assert [row["played_to_optimum"] for row in hopeless] == ["", "", "20", ""]
 
 
-def test_the_picture_has_the_colours_of_trials_of_medians_and_of_never(tmp_path: Path) -> None:
+def test_the_picture_shows_the_colours_of_trials_medians_and_never(tmp_path: Path) -> None:
     write_report(tmp_path, STUDY, REPORT)
     picture = (imread(tmp_path / "ablation.png")[..., :3] * 255).round().astype(int).reshape(-1, 3)
     for colour in ("56B4E9", "0072B2", "D55E00"):

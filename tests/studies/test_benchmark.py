@@ -1,4 +1,4 @@
-"""A benchmark's contestants and jobs, and what a design should take without a prior."""
+"""A benchmark's contestants and jobs, and the episodes that a design should take without a prior."""
 
 import itertools
 from pathlib import Path
@@ -65,7 +65,7 @@ def test_jobs_come_design_by_design_and_sb3_trains_each_trial_alone() -> None:
     assert {job.spec for job in jobs if job.library} == {AGENT_SPECS["single"]}
 
 
-def test_every_design_has_random_numbers_of_its_own_whatever_the_number_of_trials() -> None:
+def test_run_numbers_are_distinct_and_independent_of_the_number_of_trials() -> None:
     arm = contestants()[0]
     runs = [(arm.number_of(design, trial), trial) for design in range(1000) for trial in range(3)]
     assert len({run for run, _ in runs}) == len(runs)
@@ -97,7 +97,7 @@ def test_two_contestants_of_one_name_are_refused() -> None:
         config_of("benchmark", [*contestants(), contestants()[1]], trials=2, seed=0, jobs=1)
 
 
-def test_what_an_agent_can_not_take_is_left_out_with_a_line() -> None:
+def test_presets_that_an_agent_can_not_take_are_left_out_with_a_line() -> None:
     found, lines = contestants_of(["nested", "single", SB3], [TUNED, PAPER])
     assert [(agent, name) for agent, name, _ in found] == [
         ("nested", "tuned"),
@@ -109,7 +109,7 @@ def test_what_an_agent_can_not_take_is_left_out_with_a_line() -> None:
     assert lines[0].startswith("single with tuned is left out: [excursions] is not for the single agent")
 
 
-def test_an_agent_that_can_take_nothing_is_refused() -> None:
+def test_an_agent_that_can_take_no_preset_is_refused() -> None:
     with pytest.raises(UserError, match=r"^single can't take tuned: \[excursions\] is not for the single agent"):
         contestants_of(["nested", "single"], [TUNED])
 
@@ -124,11 +124,11 @@ def test_sb3_is_capped_and_explores_by_epsilon() -> None:
 
 
 @pytest.mark.parametrize(("blocks", "episodes"), [(11, 18.6), (16, 13.4), (210, 2.0)])
-def test_each_design_has_its_expected_episodes_without_a_prior(blocks: int, episodes: float) -> None:
+def test_expected_episodes_without_a_prior_follow_from_the_number_of_blocks(blocks: int, episodes: float) -> None:
     assert episodes_without_a_prior(blocks) == pytest.approx(episodes, abs=0.05)
 
 
-def test_without_a_prior_is_the_expected_last_place_of_a_block_among_the_cells() -> None:
+def test_expected_episodes_without_a_prior_match_an_enumeration_of_block_pairs() -> None:
     # Two blocks among the six cells of an arena of three by three: every pair equally likely.
     pairs = list(itertools.combinations(range(1, 7), 2))
     last_test = sum(max(pair) for pair in pairs) / len(pairs)

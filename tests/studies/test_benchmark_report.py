@@ -1,4 +1,4 @@
-"""The report of a benchmark: every contestant over all designs and on each kind; whole, and the same for the same."""
+"""The report of a benchmark: every contestant over all designs and on each kind, the same for the same trials."""
 
 from pathlib import Path
 
@@ -20,7 +20,7 @@ def text() -> str:
     return "\n\n".join(report(made_config("benchmark", TRIALS, 4), TRIALS).text)
 
 
-def test_the_report_says_what_was_measured(text: str) -> None:
+def test_the_report_names_the_designs_trials_seconds_and_updates(text: str) -> None:
     blocks = [trial.scenario.blocks for trial in TRIALS]
     assert f"12 designs of {min(blocks)} to {max(blocks)} blocks drawn from seed 4. 2 trials on each, seed 4." in text
     assert "Agarwal et al., Deep Reinforcement Learning at the Edge of the Statistical Precipice" in text
@@ -28,7 +28,7 @@ def test_the_report_says_what_was_measured(text: str) -> None:
     assert "Updates of a trial, median: nested, quick 1,000; nested, sl|ow 1,000." in text
 
 
-def test_there_is_a_table_over_all_and_one_for_each_kind(text: str) -> None:
+def test_the_report_has_a_table_over_all_designs_and_one_for_each_kind(text: str) -> None:
     tables = text.split("| agent, preset |")[1:]
     assert len(tables) == 1 + len(KINDS)
     for kind in KINDS:
@@ -42,7 +42,7 @@ def test_a_bar_in_a_name_does_not_break_the_table(text: str) -> None:
     assert {line.replace(r"\|", "").count("|") for line in lines} == {9}
 
 
-def test_a_report_is_three_files_and_the_same_each_time(tmp_path: Path) -> None:
+def test_the_same_trials_give_the_same_three_report_files(tmp_path: Path) -> None:
     found = []
     for name in ("first", "second"):
         (tmp_path / name).mkdir()
@@ -61,7 +61,7 @@ def test_a_report_is_three_files_and_the_same_each_time(tmp_path: Path) -> None:
         assert columns.min() < picture.shape[1] / 2 < columns.max()
 
 
-def test_nothing_solved_and_one_kind_alone_can_be_drawn(tmp_path: Path) -> None:
+def test_a_report_can_be_written_with_nothing_solved_and_a_single_kind(tmp_path: Path) -> None:
     trials = [played(contestant("x", 5, trials=1, designs=1), 0, 0, None)]
     write_report(tmp_path, STUDY, report(made_config("benchmark", trials, corpus="mine.toml"), trials))
     text = (tmp_path / "benchmark.md").read_text("utf-8")
@@ -70,7 +70,7 @@ def test_nothing_solved_and_one_kind_alone_can_be_drawn(tmp_path: Path) -> None:
     assert "##" not in text
 
 
-def test_a_row_is_a_line_of_the_table_and_never_is_an_empty_cell(tmp_path: Path) -> None:
+def test_the_csv_file_has_a_row_per_trial_and_an_empty_cell_for_never(tmp_path: Path) -> None:
     arm = contestant("model-based", 30, trials=1, designs=2)
     trials = [played(arm, 0, 0, 17), played(arm, 1, 0, None)]
     write_report(tmp_path, STUDY, report(made_config("benchmark", trials), trials))

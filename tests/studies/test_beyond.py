@@ -21,7 +21,7 @@ def config(trials: int = 10, jobs: int = 2) -> StudyConfig:
     return config_of("beyond", found(trials), trials=trials, seed=0, jobs=jobs)
 
 
-def test_materials_are_evenly_worth_and_the_optimum_stays() -> None:
+def test_more_materials_are_spaced_evenly_in_worth_and_keep_the_optimum() -> None:
     line = load_scenario("line")
     four = with_materials(line, 4)
     assert [(m.name, m.p) for m in four.materials] == [("wood", -5), ("clay", 0), ("sandstone", 5), ("stone", 10)]
@@ -33,14 +33,14 @@ def test_materials_are_evenly_worth_and_the_optimum_stays() -> None:
     assert line.optimum == two.optimum == four.optimum == eight.optimum == 21
 
 
-def test_every_arm_counts_for_itself() -> None:
+def test_every_arm_and_scenario_is_unique_and_every_topic_has_arms() -> None:
     keys = [(arm.name, scenario.name) for arm in found() for scenario in arm.scenarios]
     assert len(set(keys)) == len(keys)
     assert {arm.labels["topic"] for arm in found()} == {"images", "parts", "materials", "cooperation"}
     assert {arm.builders.count for arm in found() if arm.builders} == {1, 2, 3, 4}
 
 
-def test_images_have_few_trials_where_they_take_long_unless_so_many_are_asked_for() -> None:
+def test_images_have_three_trials_on_slow_designs_unless_the_option_trials_is_given() -> None:
     images = [arm for arm in found() if arm.labels["topic"] == "images"]
     trials = {(arm.scenarios[0].name, arm.labels["agent"]): arm.trials for arm in images}
     assert trials == {
@@ -54,20 +54,20 @@ def test_images_have_few_trials_where_they_take_long_unless_so_many_are_asked_fo
     assert {arm.trials for arm in arms(StudyOptions(trials=10, given=frozenset({"trials"})))} == {10}
 
 
-def test_numbers_explore_as_long_as_images() -> None:
+def test_agents_with_numbers_explore_as_long_as_agents_with_images() -> None:
     images, numbers = (arm.preset for arm in found(1)[:2])
     assert (images.states, numbers.states) == ("image", "numbers")
     assert images.explore_nested == numbers.explore_nested
     assert images.explore_main == numbers.explore_main
 
 
-def test_episodes_are_cut_and_never_raised() -> None:
+def test_the_episodes_option_shortens_arms_and_never_lengthens_them() -> None:
     assert {arm.preset.episodes for arm in found(1)} == {1500, 3000}
     assert {arm.preset.episodes for arm in found(1, 2000)} == {1500, 2000}
     assert {arm.preset.episodes for arm in found(1, 7)} == {7}
 
 
-def test_a_device_that_is_not_there_is_refused() -> None:
+def test_an_unknown_device_is_refused() -> None:
     with pytest.raises(PresetError, match="device"):
         found(1, device="nonsense")
 
@@ -87,14 +87,14 @@ def test_every_trial_of_every_arm_is_in_one_job(jobs: int) -> None:
     assert len({job.name for job in own.cut()}) == len(own.cut())
 
 
-def test_what_trains_at_once_does_not_depend_on_the_number_of_processes() -> None:
+def test_the_cut_into_jobs_does_not_depend_on_the_number_of_processes() -> None:
     one, many = config(jobs=1).cut(), config(jobs=16).cut()
     assert one == many
     assert max(len(job.trials) for job in one) == 5
     assert all(len(set(job.groups)) == len({scenario.name for scenario in job.scenarios}) == 1 for job in one)
 
 
-def test_images_come_first_since_they_take_longest() -> None:
+def test_jobs_with_images_come_first() -> None:
     states = [job.preset.states for job in config().cut()]
     assert states == sorted(states, key=lambda each: each != "image")
 

@@ -1,4 +1,4 @@
-"""The report of what the paper didn't try: the same for the same results, and what it says."""
+"""The report of reproduce --beyond: its content, and the same for the same results."""
 
 from pathlib import Path
 
@@ -44,7 +44,7 @@ def test_the_report_has_every_claim_with_its_verdict_and_its_trials(written: Pat
     assert "last ten until 1,080 updates" in text
 
 
-def test_arms_that_end_at_the_optimum_have_no_last_ten_and_few_trials_are_said(written: Path) -> None:
+def test_arms_that_stop_at_the_optimum_show_no_last_ten_and_few_trials_are_noted(written: Path) -> None:
     text = (written / "beyond.md").read_text("utf-8")
     assert "| zigzag | images | 3 | 360 | - | - | 14.83 |" in text
     assert "| flag | nested | 10 | 360 | 15.00 |" in text
@@ -53,7 +53,7 @@ def test_arms_that_end_at_the_optimum_have_no_last_ten_and_few_trials_are_said(w
     assert "too few for any test" not in "\n".join(report_on(enough, 10, 0).text)
 
 
-def test_every_evaluation_is_a_row(written: Path) -> None:
+def test_the_csv_file_has_a_row_for_every_evaluation(written: Path) -> None:
     arms = whole()
     rows = table(written / "beyond.csv")
     assert len(rows) == sum(len(trial.scores) for arm in arms.values() for trial in arm.trials)
@@ -71,7 +71,7 @@ def test_every_evaluation_is_a_row(written: Path) -> None:
     }
 
 
-def test_one_trial_is_drawn_and_reported_without_intervals(tmp_path: Path) -> None:
+def test_a_single_trial_is_drawn_and_reported(tmp_path: Path) -> None:
     write(tmp_path, whole(trials=1, image_trials=1), 1, 0)
     drawn = cv2.imread(str(tmp_path / "beyond.png"))
     assert drawn is not None

@@ -39,7 +39,7 @@ def scores(random: np.random.Generator) -> Float64s:
 
 
 def two_ways(random: np.random.Generator) -> Float64s:
-    """Return either of two policies."""
+    """Draw the scores of trials that end with either of two policies."""
     return np.where(random.random((TRIALS, EXPERIMENTS)) < 0.5, 21.0, 16.0)
 
 
@@ -65,7 +65,7 @@ def coverage(interval: Callable[[Float64s], Ends], made: Made) -> float:
 
 
 @pytest.mark.filterwarnings("ignore::scipy.stats.DegenerateDataWarning", "ignore:invalid value:RuntimeWarning")
-def test_of_three_ways_students_t_is_nearest_to_what_it_says() -> None:
+def test_students_t_covers_closest_to_95_percent_of_three_kinds_of_intervals() -> None:
     off = {
         name: sum(abs(coverage(interval, made) - 0.95) for made in MADE)
         for name, interval in {
@@ -78,16 +78,16 @@ def test_of_three_ways_students_t_is_nearest_to_what_it_says() -> None:
     assert coverage(bootstrapped("percentile"), normal) < 0.95 - ERROR
 
 
-def test_of_normal_trials_it_covers_what_it_says() -> None:
+def test_the_t_interval_covers_95_percent_on_normal_trials() -> None:
     assert coverage(t_interval, normal) == pytest.approx(0.95, abs=ERROR)
 
 
-def test_of_skewed_trials_and_of_scores_with_many_ties_it_covers_nine_in_ten() -> None:
+def test_the_t_interval_covers_89_to_95_percent_on_skewed_trials_and_tied_scores() -> None:
     assert 0.89 < coverage(t_interval, skewed) < 0.95
     assert 0.89 < coverage(t_interval, scores) < 0.95
 
 
-def test_the_cut_at_the_optimum_only_takes_away_what_no_score_can_be() -> None:
+def test_the_cut_at_the_optimum_only_lowers_upper_ends_to_the_highest_score() -> None:
     made = scores(np.random.default_rng(7))
     (low, high), (cut_low, cut_high) = t_interval(made), t_interval(made, 21.0)
     assert (high > 21.0).any()
@@ -95,7 +95,7 @@ def test_the_cut_at_the_optimum_only_takes_away_what_no_score_can_be() -> None:
     np.testing.assert_array_equal(cut_high, np.minimum(high, 21.0))
 
 
-def test_trials_that_all_agree_have_no_width_and_are_the_misses_that_this_costs() -> None:
+def test_intervals_of_trials_that_all_agree_have_no_width() -> None:
     made = scores(np.random.default_rng(7))
     agree = np.ptp(made, axis=0) == 0
     low, high = t_interval(made)
@@ -105,7 +105,7 @@ def test_trials_that_all_agree_have_no_width_and_are_the_misses_that_this_costs(
 
 
 @pytest.mark.parametrize("ratio", [1.0, 5.0])
-def test_of_a_difference_it_covers_what_it_says_however_the_spreads_differ(ratio: float) -> None:
+def test_the_interval_of_a_difference_covers_95_percent_with_equal_and_unequal_spreads(ratio: float) -> None:
     random = np.random.default_rng(3)
     held = 0
     for _ in range(EXPERIMENTS):

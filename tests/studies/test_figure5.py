@@ -29,7 +29,7 @@ def one_scenario() -> Results:
     return made(the_papers("line"))
 
 
-def test_the_panels_stand_side_by_side(tmp_path: Path) -> None:
+def test_the_panels_of_three_scenarios_stand_side_by_side(tmp_path: Path) -> None:
     draw(tmp_path, made(the_papers()))
     width, height = widths(tmp_path)
     assert width > 2.5 * height
@@ -59,12 +59,12 @@ def test_the_svg_is_whole_and_nothing_unfinished_is_left(tmp_path: Path) -> None
 
 
 @pytest.mark.parametrize("trials", [1, 2])
-def test_a_trial_or_two_of_one_agent_are_a_picture(tmp_path: Path, trials: int) -> None:
+def test_one_or_two_trials_of_one_agent_can_be_drawn(tmp_path: Path, trials: int) -> None:
     draw(tmp_path, made({("nested", "line"): level(20, trials=trials)}))
     assert min(widths(tmp_path)) > 300
 
 
-def test_a_training_without_evaluations_is_a_picture(tmp_path: Path) -> None:
+def test_a_training_without_evaluations_can_be_drawn(tmp_path: Path) -> None:
     results = one_scenario()
     nothing = {
         key: replace(curve, episodes=curve.episodes[:0], scores=curve.scores[:, :0])

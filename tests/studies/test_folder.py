@@ -26,7 +26,7 @@ def opened(path: Path) -> StudyFolder:
     return StudyFolder.open(path, ["reproduce"])
 
 
-def test_what_was_begun_is_opened_with_the_same_jobs(tmp_path: Path) -> None:
+def test_a_begun_study_is_opened_with_the_same_config_and_jobs(tmp_path: Path) -> None:
     folder = begun(tmp_path / "new")
     assert opened(tmp_path / "new").config == folder.config
     assert opened(tmp_path / "new").jobs == folder.jobs
@@ -34,7 +34,7 @@ def test_what_was_begun_is_opened_with_the_same_jobs(tmp_path: Path) -> None:
     assert folder.resume_command == f"mc-nested reproduce --resume {tmp_path / 'new'}"
 
 
-def test_nothing_is_written_before_it_begins(tmp_path: Path) -> None:
+def test_a_new_study_folder_writes_nothing_before_begin(tmp_path: Path) -> None:
     StudyFolder.new(tmp_path / "new", config())
     assert list(tmp_path.iterdir()) == []
 
@@ -68,7 +68,7 @@ def test_a_folder_without_a_config_is_refused(tmp_path: Path) -> None:
         ("seed = 7\n", "seed = \n", "not TOML"),
     ],
 )
-def test_a_config_that_was_changed_is_one_line(tmp_path: Path, old: str, new: str, says: str) -> None:
+def test_a_changed_config_is_refused_in_one_line(tmp_path: Path, old: str, new: str, says: str) -> None:
     begun(tmp_path)
     text = (tmp_path / CONFIG).read_text("utf-8")
     assert text.count(old) == 1
@@ -78,13 +78,13 @@ def test_a_config_that_was_changed_is_one_line(tmp_path: Path, old: str, new: st
     assert "\n" not in str(caught.value)
 
 
-def test_a_comment_in_the_config_is_no_change(tmp_path: Path) -> None:
+def test_a_comment_added_to_the_config_is_accepted(tmp_path: Path) -> None:
     folder = begun(tmp_path)
     (tmp_path / CONFIG).write_text("# on the old laptop\n" + (tmp_path / CONFIG).read_text("utf-8"), "utf-8")
     assert opened(tmp_path).jobs == folder.jobs
 
 
-def test_a_disk_that_is_full_is_one_line_that_says_how_to_resume(tmp_path: Path) -> None:
+def test_a_full_disk_is_reported_with_the_command_to_resume(tmp_path: Path) -> None:
     folder = begun(tmp_path / "new")
     with (
         pytest.raises(RunError, match=r"No space left.*make room, then mc-nested reproduce --resume"),
@@ -93,7 +93,7 @@ def test_a_disk_that_is_full_is_one_line_that_says_how_to_resume(tmp_path: Path)
         raise OSError(28, "No space left on device")
 
 
-def test_a_folder_that_cannot_be_made_is_one_line(tmp_path: Path) -> None:
+def test_a_folder_that_can_not_be_made_is_refused(tmp_path: Path) -> None:
     (tmp_path / "file").write_text("")
     with pytest.raises(RunError, match="name another folder"):
         StudyFolder.new(tmp_path / "file" / "new", config()).begin()

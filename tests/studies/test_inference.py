@@ -32,12 +32,12 @@ def of(*trials: float) -> Float64s:
     return np.array(trials, dtype=np.float64)
 
 
-def test_of_twenty_splits_only_the_one_at_hand_is_as_extreme() -> None:
+def test_the_p_value_is_1_in_20_when_only_the_given_split_is_as_extreme() -> None:
     assert exceeds(of(4, 5, 6), of(1, 2, 3)) == 1 / 20
     assert exceeds(of(1, 2, 3), of(4, 5, 6)) == 1
 
 
-def test_splits_that_tie_count_as_extreme() -> None:
+def test_tied_splits_count_as_extreme() -> None:
     # Of the six pairs out of 1, 2, 2, 3, two are (2, 3); (1, 3) and (2, 2) are level with the rest, (1, 2) below it.
     assert exceeds(of(2, 3), of(1, 2)) == pytest.approx(2 / 6)
     # Here these two are as extreme as the pair at hand, and so are the two that are above.
@@ -45,28 +45,28 @@ def test_splits_that_tie_count_as_extreme() -> None:
 
 
 @pytest.mark.parametrize("score", [21.0, 20.1, 0.1 + 0.2, 0.0, -5.0])
-def test_identical_trials_decide_nothing(score: float) -> None:
+def test_identical_trials_have_a_p_value_of_1(score: float) -> None:
     assert exceeds(np.full(3, score), np.full(3, score)) == 1
 
 
-def test_rounding_is_no_difference() -> None:
+def test_rounding_errors_do_not_count_as_a_difference() -> None:
     # 0.1 + 0.2 isn't 0.3 to the last bit.
     assert exceeds(np.full(4, 0.1 + 0.2), np.full(4, 0.3)) == 1
 
 
-def test_welchs_t_is_its_size_in_units_of_its_error() -> None:
+def test_studentised_is_a_bounded_form_of_welchs_t() -> None:
     # A difference of 2, variances 1 of three each: t = 2 / sqrt(2 / 3), so t / sqrt(1 + t²) = 2 / sqrt(4 + 2 / 3).
     assert studentised(of(3, 4, 5), of(1, 2, 3)) == pytest.approx(2 / (4 + 2 / 3) ** 0.5)
     assert studentised(of(1, 2, 3), of(3, 4, 5)) == pytest.approx(-2 / (4 + 2 / 3) ** 0.5)
 
 
-def test_without_any_spread_a_difference_is_as_large_as_can_be_and_none_is_none() -> None:
+def test_studentised_without_any_spread_is_1_or_minus_1_or_0() -> None:
     assert studentised(of(1, 1), of(0, 0)) == 1
     assert studentised(of(0, 0), of(1, 1)) == -1
     assert studentised(of(1, 1), of(1, 1)) == 0
 
 
-def test_of_two_splits_with_one_difference_the_steadier_counts_as_more() -> None:
+def test_the_steadier_of_two_splits_with_similar_differences_counts_as_more() -> None:
     assert studentised(of(5, 5, 5), of(4, 4, 4.5)) > studentised(of(2, 5, 8), of(1.5, 4, 7))
 
 
@@ -74,7 +74,7 @@ def test_of_two_splits_with_one_difference_the_steadier_counts_as_more() -> None
     st.lists(st.integers(0, 4), min_size=4, max_size=4),
     st.lists(st.integers(0, 4), min_size=3, max_size=3),
 )
-def test_where_all_splits_are_gone_through_p_is_their_share(left: list[int], right: list[int]) -> None:
+def test_the_exact_p_value_is_the_share_of_splits_that_are_as_extreme(left: list[int], right: list[int]) -> None:
     both = left + right
     splits = [set(split) for split in itertools.combinations(range(7), 4)]
     values = [
@@ -91,29 +91,29 @@ def welchs_t(left: list[int], right: list[int]) -> float:
     return difference / error if error else math.copysign(1e6, difference) if difference else 0.0
 
 
-def test_the_smallest_p_of_drawn_permutations_counts_the_trials_at_hand() -> None:
+def test_the_smallest_p_value_of_drawn_permutations_counts_the_given_split() -> None:
     assert exceeds(np.arange(20, 30.0), np.arange(10.0)) == pytest.approx(1 / 10_000, rel=0.5)
 
 
-def test_drawn_permutations_are_the_same_again() -> None:
+def test_drawn_permutations_repeat_and_come_close_to_the_exact_p_value() -> None:
     left, right = np.arange(3, 13.0), np.arange(10.0)
     assert exceeds(left, right) == exceeds(left, right)
     # 4,520 of all 184,756 splits have as great a sum, and with it as great a t.
     assert exceeds(left, right) == pytest.approx(0.02446, abs=0.004)
 
 
-def test_ahead_is_tested_against_level_and_against_a_block() -> None:
+def test_ahead_tests_for_a_lead_and_for_a_lead_of_less_than_a_block() -> None:
     assert ahead(of(4, 5, 6), of(1, 2, 3), margin=1) == (1 / 20, 1)
     # One block less than 1, 2, 3 is 0, 1, 2: all below 4, 5, 6.
     assert ahead(of(1, 2, 3), of(4, 5, 6), margin=1) == (1, 1 / 20)
 
 
-def test_level_trials_speak_against_being_ahead() -> None:
+def test_level_trials_are_evidence_against_being_ahead() -> None:
     tails = ahead(np.full(6, 21.0), np.full(6, 21.0), margin=1)
     assert tails == pytest.approx((1, 1 / 924))
 
 
-def test_a_lead_smaller_than_a_block_is_a_lead() -> None:
+def test_a_steady_lead_smaller_than_a_block_counts_both_for_and_against() -> None:
     tails = ahead(np.full(6, 20.5), np.full(6, 20.0), margin=1)
     assert tails == pytest.approx((1 / 924, 1 / 924))
 
@@ -123,7 +123,7 @@ def test_alike_takes_both_one_sided_tests() -> None:
     assert alike(np.full(3, 20.0), np.full(3, 20.5), margin=1) == (1 / 20, 1)
 
 
-def test_two_blocks_apart_is_not_alike_either_way_round() -> None:
+def test_scores_two_blocks_apart_are_not_alike_in_either_order() -> None:
     apart = pytest.approx((1, 2 / 20))
     assert alike(of(7, 7, 7), of(5, 5, 5), margin=1) == apart
     assert alike(of(5, 5, 5), of(7, 7, 7), margin=1) == apart
@@ -133,19 +133,19 @@ def test_a_difference_of_exactly_the_margin_is_undecided() -> None:
     assert alike(of(6, 6, 6), of(5, 5, 5), margin=1) == (1, 1)
 
 
-def test_ten_of_ten_is_two_to_the_minus_ten() -> None:
+def test_the_p_value_of_ten_successes_in_ten_is_two_to_the_minus_ten() -> None:
     assert mostly(10, 10) == pytest.approx((1 / 1024, 1))
     assert mostly(0, 10) == pytest.approx((1, 1 / 1024))
     assert mostly(1, 1) == (0.5, 1)
 
 
-def test_the_exact_interval_of_a_share() -> None:
+def test_the_interval_of_a_share_is_clopper_and_pearsons() -> None:
     # Clopper and Pearson, 10 of 10: the share whose tenth power is 0.025.
     assert share_interval(10, 10) == pytest.approx((0.025**0.1, 1))
     assert share_interval(0, 10) == pytest.approx((0, 1 - 0.025**0.1))
 
 
-def test_holms_correction_by_hand() -> None:
+def test_holms_correction_agrees_with_a_calculation_by_hand() -> None:
     # 3 x 0.01, 2 x 0.03, and the last no less than the one before it.
     assert holm([0.04, 0.01, 0.03]) == pytest.approx([0.06, 0.03, 0.06])
     assert holm([0.9, 0.6]) == [1, 1]
@@ -173,7 +173,7 @@ def test_the_interval_of_a_mean_is_students() -> None:
     assert mean_interval(of(4, 5, 6)) == pytest.approx((5 - 4.3027 / 3**0.5, 5 + 4.3027 / 3**0.5), abs=1e-4)
 
 
-def test_no_mean_is_above_the_highest_score() -> None:
+def test_the_interval_of_a_mean_ends_at_the_highest_score() -> None:
     found = mean_interval(of(19, 21, 21), highest=21)
     assert found is not None
     assert found.high == 21
@@ -186,7 +186,7 @@ def test_trials_that_agree_have_an_interval_without_width(score: float) -> None:
     assert mean_interval(np.full(10, score), 21.0) == pytest.approx((score, score))
 
 
-def test_where_one_agents_trials_agree_the_others_spread_remains() -> None:
+def test_the_interval_of_a_difference_keeps_one_agents_spread_where_the_others_trials_agree() -> None:
     # Freedom 2: that of the one with a spread.
     half = stats.t.ppf(0.975, 2) / 3**0.5
     assert difference_interval(of(21, 21, 21), of(4, 5, 6)) == pytest.approx((16 - half, 16 + half))
@@ -196,7 +196,7 @@ def test_a_single_trial_has_no_interval() -> None:
     assert mean_interval(of(21)) is None
 
 
-def test_no_worse_is_less_than_the_margin_behind() -> None:
+def test_no_worse_tests_for_being_less_than_the_margin_behind() -> None:
     right = np.arange(10.0)
     assert no_worse(right - 0.5, right, 1.0) == (exceeds(right + 0.5, right), exceeds(right, right + 0.5))
     assert no_worse(right + 9, right, 1.0).claim < 0.001
@@ -213,7 +213,7 @@ def test_a_contrast_of_two_groups_is_welchs_test() -> None:
 
 
 def test_a_contrast_of_four_groups_is_a_difference_of_differences() -> None:
-    """By hand: leads of 4 and 1, each mean's squared error 1 / 3; t = 3 / sqrt(4 / 3) with 8 degrees of freedom."""
+    """The leads are 4 and 1, each mean's squared error 1 / 3; t = 3 / sqrt(4 / 3) with 8 degrees of freedom."""
     around = np.array([-1.0, 0.0, 1.0])
     tails, interval = contrast([around + 7, around + 3, around + 2, around + 1], [1.0, -1.0, -1.0, 1.0])
     assert tails.claim == pytest.approx(stats.t.sf(3 / (4 / 3) ** 0.5, 8))
@@ -221,6 +221,6 @@ def test_a_contrast_of_four_groups_is_a_difference_of_differences() -> None:
     assert contrast([around, around], [1.0, 1.0])[0].claim == pytest.approx(0.5)
 
 
-def test_a_contrast_of_trials_that_are_all_the_same_decides_nothing() -> None:
+def test_a_contrast_without_any_spread_decides_nothing() -> None:
     same = np.full(10, 3.0)
     assert contrast([same + 1, same], [1.0, -1.0]) == (Tails(1.0, 1.0), Interval(1.0, 1.0))

@@ -45,7 +45,7 @@ def test_every_run_is_in_one_job_and_the_longest_job_comes_first(runs: list[Run]
 
 
 @given(SOME_RUNS, some.integers(1, 9))
-def test_a_job_is_of_one_agent_one_preset_and_one_choice_of_materials(runs: list[Run], parts: int) -> None:
+def test_a_job_has_one_agent_one_preset_and_one_number_of_materials(runs: list[Run], parts: int) -> None:
     for job in cut_into_jobs(runs, parts, seed=0):
         assert len({len(scenario.materials) for scenario in job.scenarios}) == 1
         assert {AGENT_SPECS[group] for group in job.groups} == {job.spec}
@@ -64,7 +64,7 @@ def test_alike_runs_are_cut_evenly(trials: int, parts: int) -> None:
     assert len(jobs) == min(parts, trials)
 
 
-def test_the_papers_experiment_on_two_cores() -> None:
+def test_the_papers_experiment_is_cut_into_four_jobs_for_two_cores() -> None:
     scenarios = [load_scenario(name) for name in ("line", "zigzag", "diamond")]
     jobs = cut_into_jobs(runs_of(list(AGENT_SPECS), scenarios, 10, load_preset("paper")), 2, seed=0)
     assert [(job.groups[0], len(job.trials)) for job in jobs] == [
@@ -75,7 +75,7 @@ def test_the_papers_experiment_on_two_cores() -> None:
     ]
 
 
-def test_one_hot_only_scenarios_of_as_many_blocks_train_together() -> None:
+def test_one_hot_scenarios_train_together_only_with_equal_numbers_of_blocks() -> None:
     one_hot = small_preset().model_copy(update={"encoding": "one-hot"})
     scenarios = [load_scenario(name) for name in ("line", "zigzag", "diamond")]
     jobs = cut_into_jobs(runs_of(["nested"], scenarios, 2, one_hot), 1, seed=0)
@@ -87,7 +87,7 @@ def test_a_long_run_weighs_as_much_as_ten_short_ones() -> None:
     assert [len(job.trials) for job in cut_into_jobs(runs, 3, seed=0)] == [10, 1, 1]
 
 
-def test_jobs_of_other_runs_presets_or_seeds_have_other_identities() -> None:
+def test_jobs_that_differ_in_runs_preset_seed_or_agent_have_different_identities() -> None:
     runs = runs_of(["nested"], [DOT, BAR], 2, small_preset())
     shorter = runs_of(["nested"], [DOT, BAR], 2, small_preset(19))
     jobs = [
@@ -102,13 +102,13 @@ def test_jobs_of_other_runs_presets_or_seeds_have_other_identities() -> None:
     assert cut_into_jobs(runs, 1, seed=0)[0].identity() == jobs[0][0].identity()
 
 
-def test_what_ends_a_run_and_who_trains_it_are_part_of_the_identity() -> None:
+def test_a_jobs_identity_includes_stop_at_optimum_and_the_library() -> None:
     job = cut_into_jobs(runs_of(["nested"], [DOT], 1, small_preset()), 1, seed=0)[0]
     others = [replace(job, stop_at_optimum=True), replace(job, library="another")]
     assert len({str(each.identity()) for each in (job, *others)}) == 3
 
 
-def test_runs_with_a_limit_train_a_few_trials_at_a_time_on_one_design_each() -> None:
+def test_runs_with_a_limit_are_cut_into_small_jobs_of_one_design() -> None:
     runs = [replace(run, together=2) for run in runs_of(["nested"], [DOT, BAR], 5, small_preset())]
     jobs = cut_into_jobs(runs, 7, seed=0)
     assert [(job.scenarios[0].name, job.trials) for job in jobs] == [
@@ -121,12 +121,12 @@ def test_runs_with_a_limit_train_a_few_trials_at_a_time_on_one_design_each() -> 
     ]
 
 
-def test_a_run_waits_for_its_turn_however_long_it_is() -> None:
+def test_a_long_run_with_a_later_turn_comes_after_a_short_one() -> None:
     short, long = (runs_of(["nested"], [DOT], 1, small_preset(episodes))[0] for episodes in (10, 100))
     jobs = cut_into_jobs([replace(long, together=1, turn=1), replace(short, together=1)], 1, seed=0)
     assert [job.preset.episodes for job in jobs] == [10, 100]
 
 
-def test_runs_of_one_kind_stand_side_by_side() -> None:
+def test_side_by_side_groups_runs_of_one_kind() -> None:
     one, other = (runs_of(["nested"], [DOT], 1, small_preset(episodes)) for episodes in (10, 100))
     assert side_by_side([*one, *other, *one]) == [*one, *one, *other]

@@ -40,7 +40,7 @@ def train(job: Job, folder: Path) -> JobOutcome:
     ("agent", "encoding"),
     [("nested", "scaled"), ("hierarchical", "scaled"), ("single", "scaled"), ("nested", "one-hot")],
 )
-def test_the_outcome_does_not_depend_on_the_division(agent: str, encoding: str, tmp_path: Path) -> None:
+def test_the_outcome_does_not_depend_on_the_cut_into_jobs(agent: str, encoding: str, tmp_path: Path) -> None:
     runs = runs_of([agent], [DOT, BAR], 3, small_preset().model_copy(update={"encoding": encoding}))
     found: list[dict[tuple[str, int], RunOutcome]] = []
     for parts in (1, 4):
@@ -54,7 +54,7 @@ def test_the_outcome_does_not_depend_on_the_division(agent: str, encoding: str, 
     assert found[0]["bar", 0] != found[0]["bar", 1]
 
 
-def test_an_outcome_says_what_was_evaluated_and_what_it_took(tmp_path: Path) -> None:
+def test_an_outcome_holds_evaluations_steps_updates_and_replay_bytes(tmp_path: Path) -> None:
     job = one_job("nested", [DOT, BAR], 2)
     outcome = train(job, tmp_path)
     assert [row.episode for row in outcome.runs[0].evaluations] == [5, 10, 15, 20]
@@ -70,12 +70,12 @@ def test_an_outcome_says_what_was_evaluated_and_what_it_took(tmp_path: Path) -> 
         assert run.replay_bytes == 13 * (run.env_steps + 20)
 
 
-def test_the_single_agent_holds_its_steps_alone(tmp_path: Path) -> None:
+def test_the_single_agents_replay_bytes_count_its_steps_alone(tmp_path: Path) -> None:
     for run in train(one_job("single", [DOT, BAR], 1), tmp_path).runs:
         assert run.replay_bytes == 13 * run.env_steps
 
 
-def test_an_outcome_of_an_earlier_version_says_nothing_of_bytes(tmp_path: Path) -> None:
+def test_an_outcome_of_an_earlier_version_is_read_without_replay_bytes(tmp_path: Path) -> None:
     job = one_job("nested", [DOT], 1)
     train(job, tmp_path)
     written = json.loads((tmp_path / OUTCOME).read_text("utf-8"))
@@ -87,7 +87,7 @@ def test_an_outcome_of_an_earlier_version_says_nothing_of_bytes(tmp_path: Path) 
     assert outcome.runs[0].replay_bytes is None
 
 
-def test_no_run_loses_more_than_an_evaluation_interval(tmp_path: Path) -> None:
+def test_a_killed_run_loses_less_than_an_evaluation_interval(tmp_path: Path) -> None:
     job = one_job("nested", [DOT, BAR], 2, episodes=50)
     own = training(job, tmp_path)
     for tick in range(200):
@@ -119,7 +119,7 @@ def test_a_job_stopped_repeatedly_has_the_same_outcome(tmp_path: Path) -> None:
     assert stopped.runs == straight.runs
 
 
-def test_a_finished_job_leaves_its_outcome_alone(tmp_path: Path) -> None:
+def test_a_finished_job_leaves_only_its_outcome_on_disk(tmp_path: Path) -> None:
     job = one_job("nested", [DOT], 1)
     assert outcome_of(job, tmp_path / "job") is None
     train(job, tmp_path / "job")
@@ -138,7 +138,7 @@ def test_an_outcome_of_another_job_or_half_of_one_is_refused(tmp_path: Path) -> 
     assert "\n" not in str(caught.value)
 
 
-def test_a_full_disk_costs_one_line_and_not_the_last_save(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_full_disk_is_reported_and_keeps_the_last_save(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     job = one_job("nested", [DOT], 2, episodes=50)
     own = training(job, tmp_path)
     while (own.trainer.episodes_done < 14).all():
@@ -153,7 +153,7 @@ def test_a_full_disk_costs_one_line_and_not_the_last_save(tmp_path: Path, monkey
 
 
 class MadeUp(Training):
-    """Two runs, of which it is said what they do."""
+    """Two runs whose steps, updates and evaluations are told."""
 
     def __init__(self) -> None:
         preset, scenarios = small_preset(), [DOT, DOT]
@@ -180,7 +180,7 @@ def test_each_evaluation_has_its_own_runs_steps_and_updates() -> None:
     assert spent.at == [(15, 12), (20, 17)]
 
 
-def test_it_goes_on_from_what_was_saved() -> None:
+def test_a_loaded_spending_count_continues_from_the_saved_one() -> None:
     trainer, spent = MadeUp(), SpendingCount(2)
     trainer.train(0, steps=10, updates=7)
     trainer.evaluate(0)
@@ -194,7 +194,7 @@ def test_it_goes_on_from_what_was_saved() -> None:
 
 
 @pytest.mark.parametrize("agent", ["nested", "hierarchical", "single"])
-def test_at_its_last_evaluation_a_run_had_spent_all_that_its_outcome_says(agent: str, tmp_path: Path) -> None:
+def test_the_last_evaluation_has_the_outcomes_total_steps_and_updates(agent: str, tmp_path: Path) -> None:
     job = one_job(agent, [DOT, BAR], 2)
     training = JobTraining(job, tmp_path, agents_trainer(job, GridVectorEnv(job.scenarios)))
     while not training.finished:
@@ -240,7 +240,7 @@ def train_untouched(job: Job, folder: Path, stopped_at: int | None = None) -> Jo
 
 
 @pytest.mark.parametrize("networks", ["shared", "own", "single"])
-def test_a_team_is_trained_the_same_however_often_it_is_stopped(networks: Networks, tmp_path: Path) -> None:
+def test_a_team_stopped_and_resumed_has_the_same_outcome(networks: Networks, tmp_path: Path) -> None:
     job = team_job(2, networks)
     whole, stopped = train_untouched(job, tmp_path / "whole"), train_untouched(job, tmp_path / "stopped", stopped_at=41)
     assert whole.runs == stopped.runs
@@ -250,12 +250,12 @@ def test_a_team_is_trained_the_same_however_often_it_is_stopped(networks: Networ
     assert all((run.replay_bytes or 0) > 0 for run in whole.runs)
 
 
-def test_a_trial_is_the_same_whatever_trains_beside_it(tmp_path: Path) -> None:
+def test_a_team_trial_has_the_same_outcome_alone_and_beside_another(tmp_path: Path) -> None:
     both, alone = team_job(2, "own"), team_job(2, "own", trials=(1,))
     assert train_untouched(both, tmp_path / "both").runs[1] == train_untouched(alone, tmp_path / "alone").runs[0]
 
 
-def test_builders_are_part_of_what_is_trained() -> None:
+def test_a_jobs_identity_includes_its_builders() -> None:
     jobs = [
         team_job(2, "shared"),
         team_job(3, "shared"),

@@ -1,4 +1,4 @@
-"""How often a test of equal means says otherwise, simulated: no more often than α, unlike that of the difference."""
+"""How often a test of equal means errs, simulated: no more often than α, unlike a test of the plain difference."""
 
 from collections.abc import Callable
 
@@ -72,17 +72,17 @@ def fewer_permutations(monkeypatch: pytest.MonkeyPatch) -> None:
     ],
     ids=["alike", "wider right", "wider left", "peaked", "scores, wider right", "scores, wider left"],
 )
-def test_ten_trials_of_unequal_spreads_keep_the_level(left: Made, right: Made) -> None:
+def test_the_studentised_test_keeps_its_level_at_ten_trials_of_unequal_spreads(left: Made, right: Made) -> None:
     assert level(exceeds, left, right) <= ALPHA + ERROR
 
 
-def test_where_the_wider_agent_has_fewer_trials_the_difference_itself_fails_by_far() -> None:
+def test_the_unstudentised_test_errs_too_often_when_the_wider_agent_has_fewer_trials() -> None:
     ours, theirs = (level(test, normal(4), normal(1, trials=30)) for test in (exceeds, unstudentised))
     assert theirs > 2 * ALPHA + ERROR
     assert ours < 2 * ALPHA < theirs
 
 
-def test_where_one_agent_is_skewed_ten_trials_are_too_few_for_either() -> None:
+def test_both_tests_err_too_often_at_ten_trials_when_one_agent_is_more_skewed() -> None:
     # What the report says about p-values of such trials.
     for test in (exceeds, unstudentised):
         assert 2 * ALPHA < level(test, skewed(1), skewed(5)) < 3.5 * ALPHA

@@ -1,4 +1,4 @@
-"""What is measured of a trial, by hand."""
+"""Measures of a trial, by hand."""
 
 import numpy as np
 import pytest
@@ -12,7 +12,7 @@ def curve(episodes: list[int], scores: list[list[float]], trained: int, keeps_be
 
 
 @pytest.mark.parametrize(("episodes", "early"), [(30_000, 1000), (3000, 1000), (2999, 999), (90, 30)])
-def test_early_is_the_first_thousand_episodes_or_a_third(episodes: int, early: int) -> None:
+def test_the_early_limit_is_a_thousand_episodes_or_a_third(episodes: int, early: int) -> None:
     assert early_limit(episodes) == early
 
 
@@ -25,18 +25,18 @@ def test_the_final_score_is_that_of_the_last_evaluation() -> None:
     assert curve([30, 60], [[21, 3], [5, 20]], trained=60).final.tolist() == [3.0, 20.0]
 
 
-def test_where_the_best_policy_is_kept_the_final_score_is_its() -> None:
+def test_the_final_score_is_the_best_policys_where_that_is_kept() -> None:
     assert curve([30, 60], [[21, 3], [5, 20]], trained=60, keeps_best=True).final.tolist() == [21.0, 20.0]
 
 
-def test_the_last_ten_are_averaged_whichever_policy_is_kept() -> None:
+def test_last_ten_averages_the_last_ten_evaluations_whichever_policy_is_kept() -> None:
     episodes = list(range(30, 3001, 30))
     scores = [[0.0] * 90 + [20.0] * 9 + [10.0], [0.0] * 89 + [99.0] + [21.0] * 10]
     for keeps_best in (False, True):
         assert curve(episodes, scores, 3000, keeps_best).last_ten.tolist() == [19.0, 21.0]
 
 
-def test_where_the_last_third_has_fewer_than_ten_it_is_over_those() -> None:
+def test_last_ten_averages_the_last_third_if_shorter_than_ten_evaluations() -> None:
     assert curve([10, 20, 21, 30], [[-5, 50, 1, 2]], trained=30).last_ten.tolist() == [1.5]
 
 
@@ -45,14 +45,14 @@ def test_the_spread_is_the_standard_deviation_over_the_last_third() -> None:
     assert seen.spread.tolist() == [1.0, 0.0]
 
 
-def test_what_was_not_evaluated_is_not_measured() -> None:
+def test_measures_without_evaluations_are_empty() -> None:
     nothing = curve([], [[], []], trained=3000)
     assert [len(measure) for measure in (nothing.early, nothing.final, nothing.last_ten, nothing.spread)] == [0] * 4
     late = curve([3000], [[21], [20]], trained=3000)
     assert [len(measure) for measure in (late.early, late.final, late.last_ten, late.spread)] == [0, 2, 2, 0]
 
 
-def test_a_curve_is_that_of_an_arms_trials_whatever_their_order() -> None:
+def test_the_curve_of_an_arm_does_not_depend_on_the_order_of_trials() -> None:
     arm = made_arm("nested", trials=2)
     scores = [[1.0, 20.0, 21.0], [2.0, 21.0, 19.0]]
     trials = [

@@ -18,11 +18,11 @@ def one(effect: MeanEffect | ShareEffect, trials: int, alpha: float = ALPHA) -> 
 
 @pytest.mark.parametrize(("difference", "trials"), [(0.5, 51), (0.8, 21), (1.0, 14)])
 def test_two_means_take_as_many_trials_as_cohens_tables_say(difference: float, trials: int) -> None:
-    """Cohen (1988): a one-sided t test, α = 0.05, power 0.8, for differences of so many standard deviations."""
+    """Cohen (1988) tables a one-sided t test, α = 0.05, power 0.8, by the difference in standard deviations."""
     assert deciding_trials([MeanEffect(difference, -difference, (1.0, 1.0))]) == trials
 
 
-def test_power_is_how_often_welchs_t_is_significant() -> None:
+def test_power_agrees_with_the_simulated_share_of_significant_welch_tests() -> None:
     random, effect = np.random.default_rng(5), MeanEffect(1.0, -1.0, (1.0, 2.0))
     left, right = random.normal(1, 1, (20, 20_000)), random.normal(0, 2, (20, 20_000))
     found = stats.ttest_ind(left, right, equal_var=False, alternative="greater").pvalue < ALPHA
@@ -45,7 +45,7 @@ def test_more_trials_have_more_power(above: float, left: float, right: float, tr
     assert one(effect, trials) <= one(effect, trials + 1) + 1e-9
 
 
-def test_a_share_takes_as_many_trials_as_the_binomial_test() -> None:
+def test_a_share_takes_as_many_trials_as_the_binomial_test_needs() -> None:
     assert one(ShareEffect(1.0), 4) == 0.0
     assert one(ShareEffect(1.0), 5) == 1.0
     assert deciding_trials([ShareEffect(1.0)]) == 5
@@ -54,7 +54,7 @@ def test_a_share_takes_as_many_trials_as_the_binomial_test() -> None:
 
 
 @pytest.mark.parametrize("trials", [5, 8, 10, 30])
-def test_the_power_of_a_share_sums_what_its_test_finds_significant(trials: int) -> None:
+def test_the_power_of_a_share_sums_the_probabilities_of_significant_counts(trials: int) -> None:
     shown = sum(
         stats.binom.pmf(count, trials, 0.7) for count in range(trials + 1) if mostly(count, trials).claim < ALPHA
     )
@@ -66,7 +66,7 @@ def test_a_share_below_one_half_is_shown_against_the_claim() -> None:
     assert deciding_trials([ShareEffect(0.5)]) is None
 
 
-def test_a_share_counts_from_where_its_power_stays() -> None:
+def test_a_share_needs_the_trials_from_which_its_power_stays_high() -> None:
     """The power of 0.7 is above 0.8 at 37 trials, and below again until 42: it rises in a saw-tooth."""
     power = ShareEffect(0.7).power_for(np.arange(37, 60), ALPHA)
     assert power[0] >= 0.8 > power[4]
@@ -83,7 +83,7 @@ def test_a_small_lead_is_decided_as_less_than_a_block() -> None:
     assert found < 10 < (deciding_trials([MeanEffect(0.1, -0.1, (0.3, 0.3))]) or 0)
 
 
-def test_a_t_test_takes_fewer_trials_than_a_permutation_test_and_none_without_spread() -> None:
+def test_a_t_test_needs_fewer_trials_than_a_permutation_test_but_some_spread() -> None:
     assert deciding_trials([MeanEffect(50.0, -50.0, (1.0, 1.0), is_permuted=False)]) == 2
     assert deciding_trials([MeanEffect(50.0, -50.0, (1.0, 1.0))]) == 4
     assert deciding_trials([MeanEffect(2.0, -2.0, (0.0, 0.0), is_permuted=False)]) is None
@@ -106,5 +106,5 @@ def test_one_line_against_a_claim_is_enough_at_its_share_of_alpha() -> None:
     assert float(against.power_against(np.array([found - 1]), ALPHA / 2)[0]) < 0.8
 
 
-def test_without_a_tested_line_no_number_is_named() -> None:
+def test_no_number_of_trials_is_named_without_a_tested_line() -> None:
     assert deciding_trials([]) is None

@@ -28,17 +28,17 @@ def test_an_interquartile_mean_is_the_mean_without_a_quarter_at_either_end(count
     assert interquartile_mean(played) == pytest.approx(stats.trim_mean(played, 0.25, axis=None))
 
 
-def test_what_was_never_solved_is_infinite_and_left_out_up_to_a_quarter() -> None:
+def test_unsolved_trials_count_as_infinite_and_are_left_out_up_to_a_quarter() -> None:
     assert interquartile_mean(np.array([[1.0], [2.0], [4.0], [INF]])) == 3.0
     assert interquartile_mean(np.array([[1.0], [2.0], [INF], [INF]])) == INF
 
 
-def test_a_profile_is_the_share_of_trials_within_so_many_episodes() -> None:
+def test_a_profile_is_the_share_of_trials_solved_within_each_number_of_episodes() -> None:
     played = np.array([[5.0, 7.0], [7.0, INF]])
     assert profile(played, np.array([4, 5, 6, 7, 1000])).tolist() == [0, 0.25, 0.25, 0.75, 0.75]
 
 
-def test_designs_are_drawn_again_within_their_kind_and_trials_within_their_design() -> None:
+def test_resamples_draw_designs_within_their_kind_and_trials_within_their_design() -> None:
     own = trials([[1, 2], [3, 4], [50, 60], [70, 80], [90, 95]], ["edge", "edge", "corner", "corner", "corner"])
     drawn = [own.played[indices] for indices in resamples(own)]
     assert {each.shape for each in drawn} == {(5, 2)}
@@ -68,7 +68,7 @@ def test_an_interval_surrounds_its_mean_and_is_narrower_with_more_designs() -> N
     assert widths[1] < widths[0] / 2
 
 
-def test_the_figures_of_a_few_trials() -> None:
+def test_measures_of_four_trials_are_right_in_numbers_and_words() -> None:
     found = measures_of(trials([[4.0], [20.0], [21.0], [INF]], ["edge"] * 4))
     assert (found.trials, found.solved, found.median, found.mean, found.worst) == (4, 3, 20.5, 20.5, INF)
     assert found.within_twice == 0.5
@@ -80,21 +80,21 @@ def test_the_figures_of_a_few_trials() -> None:
     assert cells[3:] == ("∞", "10", "50 %")
 
 
-def test_a_share_is_not_rounded_up_to_a_bar() -> None:
+def test_a_share_of_97_6_percent_is_not_rounded_up() -> None:
     played = [[5.0]] * 976 + [[INF]] * 24
     assert measures_of(trials(played, ["edge"] * 1000)).in_words()[-1] == "97.6 %"
 
 
-def test_without_any_finite_resample_there_is_no_interval_to_show() -> None:
+def test_no_interval_is_shown_without_any_finite_resample() -> None:
     assert measures_of(trials([[INF], [INF]], ["edge"] * 2)).in_words()[2] == "∞"
 
 
-def test_within_twice_counts_by_each_designs_own_number_without_a_prior() -> None:
+def test_within_twice_uses_each_designs_own_number_without_a_prior() -> None:
     own = PlayedDesigns(np.array([[30.0], [30.0]]), np.array([14.0, 15.0]), ["edge", "edge"])
     assert measures_of(own).within_twice == 0.5
 
 
-def test_trials_of_a_kind_are_of_that_kind_alone() -> None:
+def test_played_designs_of_a_kind_hold_that_kind_alone() -> None:
     slow = [trial for trial in made_benchmark() if trial.arm.name == "nested, sl|ow"]
     every = played_designs(slow)
     assert every.played.shape == (12, 2)

@@ -26,7 +26,7 @@ def test_three_agents_on_three_designs_in_ten_trials_are_ninety_runs() -> None:
     assert [run.trial for run in runs[:11]] == [*range(10), 0]
 
 
-def test_what_is_trained_for_longer_is_what_claim_f_is_about() -> None:
+def test_agents_and_scenarios_of_claim_f_are_trained_for_longer() -> None:
     longer = runs_of(asked([], THREE, longer=10))[90:]
     assert {(run.group, run.scenario.name, run.preset.episodes) for run in longer} == {
         (f"{agent}-longer", scenario, 300) for agent in LONGER_AGENTS for scenario in LONGER_SCENARIOS
@@ -34,7 +34,7 @@ def test_what_is_trained_for_longer_is_what_claim_f_is_about() -> None:
     assert len(longer) == 40
 
 
-def test_only_what_is_trained_at_all_is_trained_for_longer() -> None:
+def test_only_chosen_agents_and_scenarios_are_trained_for_longer() -> None:
     few = asked(["single", "hierarchical"], ["diamond", "line"], longer=3)
     longer = [arm for arm in few if arm.name.endswith("-longer")]
     assert [(arm.agent, [scenario.name for scenario in arm.scenarios]) for arm in longer] == [

@@ -1,4 +1,4 @@
-"""report.md: what it says is what was judged, and it says the same of the same results."""
+"""report.md: it says what was judged, and the same for the same results."""
 
 from dataclasses import replace
 from pathlib import Path
@@ -46,7 +46,7 @@ def test_every_claim_has_its_quote_its_section_and_its_verdict() -> None:
         assert f'section {judged.claim.section}: "{judged.claim.paper}"' in text
 
 
-def test_a_finding_has_figures_interval_both_p_and_holm(lines: list[str]) -> None:
+def test_a_finding_shows_figures_interval_both_p_values_and_holms(lines: list[str]) -> None:
     finding = next(line for line in lines if line.startswith("| line, early score"))
     assert cells(finding) == [
         "line, early score",
@@ -59,7 +59,7 @@ def test_a_finding_has_figures_interval_both_p_and_holm(lines: list[str]) -> Non
     ]
 
 
-def test_the_opposites_p_stands_beside_its_correction() -> None:
+def test_the_p_value_of_the_opposite_stands_beside_its_correction() -> None:
     level_early = {key: [trial._replace(early=5.0) for trial in own] for key, own in the_papers().items()}
     lines = text_of(made(level_early)).splitlines()
     section = lines[next(at for at, line in enumerate(lines) if line.startswith("### (g)")) :]
@@ -67,18 +67,18 @@ def test_the_opposites_p_stands_beside_its_correction() -> None:
     assert cells(finding)[3:] == ["1", "0.0011", "0.0032", "does not hold"]  # three lines: 3 / 924
 
 
-def test_the_costs_stand_beside_the_nested_agents(lines: list[str]) -> None:
+def test_costs_are_shown_with_their_ratio_to_the_nested_agents(lines: list[str]) -> None:
     assert "| zigzag | nested | 2 | 3,000 | 1,200 | 1,000 | 1.00 |" in lines
     assert "| zigzag | hierarchical | 3 (1.50) | 4,500 (1.50) | 1,200 (1.00) | 1,000 (1.00) | 1.30 |" in lines
 
 
-def test_what_is_kept_says_what_the_final_score_is() -> None:
+def test_the_report_defines_the_final_score_by_the_kept_policy() -> None:
     results = made(the_papers("line"))
     assert "A final score is that of the last evaluation." in text_of(results)
     assert "A final score is that of the policy that is kept, the best" in text_of(replace(results, keeps_best=True))
 
 
-def test_only_lines_that_name_seconds_differ_where_the_same_took_longer() -> None:
+def test_a_slower_run_changes_only_lines_about_seconds() -> None:
     results = made(the_papers("line"))
     slower = replace(results, costs={key: cost._replace(seconds=99.0) for key, cost in results.costs.items()})
     fast_lines, slow_lines = text_of(results).splitlines(), text_of(slower).splitlines()
@@ -88,18 +88,18 @@ def test_only_lines_that_name_seconds_differ_where_the_same_took_longer() -> Non
     assert differing[-1].startswith("Seconds")
 
 
-def test_without_the_long_run_its_claim_was_not_run(lines: list[str]) -> None:
+def test_claim_f_is_not_run_without_the_long_run(lines: list[str]) -> None:
     assert "### (f) more episodes bring the zigzag and the diamond to the optimum: not run" in lines
     assert any("needs a second run with ten times the episodes" in line for line in lines)
 
 
-def test_the_long_run_is_named() -> None:
+def test_the_report_names_the_long_run() -> None:
     text = text_of(made(the_papers("zigzag")), made(the_papers("zigzag"), episodes=900))
     assert "A second run, of 900 episodes" in text
     assert "share after 90 episodes 0.00, share after 900 episodes 0.00" in text
 
 
-def test_a_single_trial_makes_a_report_without_numbers_that_are_none() -> None:
+def test_the_report_of_a_single_trial_contains_no_nan_or_infinity() -> None:
     results = made({key: trials[:1] for key, trials in the_papers().items()})
     text = text_of(results, results)
     assert "a single trial can't be tested" in text
@@ -107,7 +107,7 @@ def test_a_single_trial_makes_a_report_without_numbers_that_are_none() -> None:
     assert "inf" not in text
 
 
-def test_too_few_trials_are_said_to_be_too_few(lines: list[str]) -> None:
+def test_the_report_says_when_trials_are_too_few_for_a_test(lines: list[str]) -> None:
     def few(trials: int) -> str:
         return text_of(made({key: own[:trials] for key, own in the_papers().items()}))
 

@@ -1,4 +1,4 @@
-"""What the claims rest on: the scripted builder's score, by the rules alone, as the simulator has it."""
+"""The scripted builder's score, which claims rest on: by the rules alone, equal to the simulator's."""
 
 from dataclasses import replace
 
@@ -31,7 +31,7 @@ def test_the_builder_scores_the_optimum(name: str) -> None:
 
 @pytest.mark.parametrize("name", shipped_scenarios())
 @pytest.mark.parametrize("share", [1.0, 0.5])
-def test_the_builder_scores_by_the_rules_what_it_scores_in_the_simulator(name: str, share: float) -> None:
+def test_the_builders_score_by_the_rules_equals_its_score_in_the_simulator(name: str, share: float) -> None:
     scenario = load_scenario(name)
     limit = max(scenario.blocks, int(share * len(build_with_materials(scenario))))
     limited = replace(scenario, step_limit=limit)

@@ -24,7 +24,7 @@ def runs_of() -> list[Run]:
     return side_by_side([run for arm in arms(StudyOptions(trials=2, scenarios=SCENARIOS)) for run in arm.runs()])
 
 
-def test_the_base_comes_first_and_every_other_changes_one_thing() -> None:
+def test_the_base_comes_first_and_every_other_choice_changes_one_thing() -> None:
     assert CHOICES[0] == Change()
     for choice in CHOICES[1:]:
         preset = choice.preset_from(PAPER).model_dump()
@@ -34,20 +34,20 @@ def test_the_base_comes_first_and_every_other_changes_one_thing() -> None:
         assert len(tables) + moved + specs == 1, choice.name
 
 
-def test_what_the_paper_leaves_open_is_among_them() -> None:
+def test_the_choices_include_those_that_the_paper_leaves_open() -> None:
     choices = {choice.choice for choice in CHOICES}
     assert choices >= {"start", "designs", "step limit", "γ", "learning rate", "target period", "learning starts"}
     assert choices >= {f"{agent} ε, {what}" for agent in ("main", "nested") for what in ("share", "floor")}
     assert choices >= {"states", "the policy kept", "single, its choice"}
 
 
-def test_names_and_groups_are_each_once() -> None:
+def test_every_run_of_every_choice_is_unique() -> None:
     runs = runs_of()
     assert len({(run.group, run.scenario.name, run.trial) for run in runs}) == len(runs)
     assert len(runs) == len(CHOICES) * 3 * 3 * 2
 
 
-def test_every_agent_meets_every_choice_and_what_differs_in_its_scenarios_alone_trains_together() -> None:
+def test_every_agent_has_every_choice_and_runs_of_one_kind_stand_side_by_side() -> None:
     runs = runs_of()
     assert {run.group for run in runs} == {f"{choice.name}, {agent}" for choice in CHOICES for agent in AGENT_SPECS}
     kinds = [(run.spec, run.preset) for run in runs]
@@ -76,20 +76,20 @@ def test_other_designs_are_of_the_same_kinds_with_fewer_blocks() -> None:
     assert found["diamond"].design == {(x, y) for x in range(15) for y in range(15) if abs(x - 7) + abs(y - 7) == 3}
 
 
-def test_a_design_of_another_name_stays_as_it_is() -> None:
+def test_a_design_that_a_choice_does_not_name_is_unchanged() -> None:
     smaller = next(choice for choice in CHOICES if choice.designs)
     assert smaller.scenario_from(BAR) == BAR
     assert smaller not in open_choices(PAPER, [DOT, BAR])
 
 
 @pytest.mark.parametrize("preset", ["tuned", "model-based"])
-def test_a_preset_that_the_single_agent_can_not_use_leaves_nothing_but_scenarios(preset: str) -> None:
+def test_a_preset_that_the_single_agent_can_not_use_leaves_only_scenario_choices(preset: str) -> None:
     # Such a preset is refused before; nothing here pretends that it could be judged.
     chosen = load_preset(preset)
     assert all(choice.preset_from(chosen) == chosen for choice in open_choices(chosen, SCENARIOS))
 
 
-def test_a_choice_that_can_not_be_built_is_left_out_and_says_so_where_it_is_asked_for() -> None:
+def test_a_choice_with_an_invalid_design_is_left_out_and_refused_when_applied() -> None:
     odd = Change(choice="designs", value="odd", designs={"line": "#"})
     assert not odd.differs(list(AGENT_SPECS), PAPER, SCENARIOS)
     with pytest.raises(ScenarioError, match="designs: odd, scenario line"):

@@ -44,7 +44,7 @@ def test_all_claims_but_those_of_longer_trainings_and_seconds_are_judged(choices
     assert choices[1].verdicts["a2"] is Verdict.FAILS
 
 
-def test_a_verdict_that_is_not_the_bases_is_bold(choices: list[JudgedChoice]) -> None:
+def test_a_verdict_that_differs_from_the_bases_is_bold(choices: list[JudgedChoice]) -> None:
     lines = text_of(choices).splitlines()
     base, changed, same = (
         cells(next(line for line in lines if line.startswith(f"| {name}")))
@@ -60,14 +60,14 @@ def test_each_claim_counts_its_verdicts_under_the_other_choices(choices: list[Ju
     assert cells(line)[2:] == ["holds", "1", "0", "1"]
 
 
-def test_scores_stand_with_the_optimum_of_the_choice(choices: list[JudgedChoice]) -> None:
+def test_scores_are_shown_with_the_optimum_of_the_choice(choices: list[JudgedChoice]) -> None:
     optimum = {**choices[0].results.optimum, "line": 17.0}
     lower = judged_under("designs", "smaller", replace(made(the_papers()), optimum=optimum))
     line = text_of([choices[0], lower]).splitlines()[-3]
     assert cells(line)[:2] == ["designs: smaller", "20.00, 17.00, 13.00 of 17"]
 
 
-def test_the_table_has_every_line_of_every_claim(choices: list[JudgedChoice], tmp_path: Path) -> None:
+def test_the_csv_file_has_every_line_of_every_claim(choices: list[JudgedChoice], tmp_path: Path) -> None:
     write_report(tmp_path, STUDY, report_on(choices))
     with (tmp_path / "robustness.csv").open(newline="", encoding="utf-8") as file:
         header, *rows = list(csv.reader(file))
@@ -80,7 +80,7 @@ def test_the_table_has_every_line_of_every_claim(choices: list[JudgedChoice], tm
     assert float(row[6]) < 0.05 < float(row[5])
 
 
-def test_the_picture_has_a_line_for_each_choice_and_the_same_bytes_again(
+def test_the_picture_grows_with_the_choices_and_the_files_are_repeatable(
     choices: list[JudgedChoice], tmp_path: Path
 ) -> None:
     sizes = []

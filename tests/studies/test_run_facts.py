@@ -1,4 +1,4 @@
-"""What a list of runs says of each folder, whatever state it is in."""
+"""Facts that a list of runs shows of each folder, in any state."""
 
 import json
 import shutil
@@ -59,7 +59,7 @@ def test_a_finished_training_has_the_mean_of_its_scores(trained: Path, tmp_path:
     assert (facts.score, facts.optimum) == (10.5, 11.0)
 
 
-def test_its_size_is_that_of_all_files_and_links_are_not_followed(tmp_path: Path) -> None:
+def test_a_runs_size_counts_all_files_and_follows_no_links(tmp_path: Path) -> None:
     folder = begun(tmp_path / "run")
     (tmp_path / "large").write_bytes(bytes(10_000))
     (folder.path / "inside").mkdir()
@@ -150,13 +150,13 @@ def test_a_study_counts_the_episodes_of_finished_jobs(
 
 
 @pytest.mark.parametrize("text", [None, "[tool]\nname = 'another program'\n", "agent = ["])
-def test_folders_that_are_no_runs_of_this_project_are_not_listed(text: str | None, tmp_path: Path) -> None:
+def test_folders_without_a_config_of_this_project_are_not_listed(text: str | None, tmp_path: Path) -> None:
     if text is not None:
         (tmp_path / "config.toml").write_text(text)
     assert facts_of(tmp_path) is None
 
 
-def test_a_folder_lists_its_runs_by_name_and_a_run_itself_alone(trained: Path, tmp_path: Path) -> None:
+def test_runs_in_lists_a_folders_runs_by_name_and_a_run_by_itself(trained: Path, tmp_path: Path) -> None:
     for name in ("b", "a"):
         shutil.copytree(trained, tmp_path / name)
     (tmp_path / "other").mkdir()

@@ -43,7 +43,7 @@ def trained(own: TrainedJob) -> JobOutcome:
     return outcome
 
 
-def test_it_ends_at_the_first_greedy_episode_at_the_optimum(tmp_path: Path) -> None:
+def test_an_sb3_training_ends_at_the_first_greedy_episode_at_the_optimum(tmp_path: Path) -> None:
     own = training(tmp_path / "job")
     outcome = trained(own)
     (run,) = outcome.runs
@@ -58,12 +58,12 @@ def test_it_ends_at_the_first_greedy_episode_at_the_optimum(tmp_path: Path) -> N
     assert [path.name for path in (tmp_path / "job").iterdir()] == [OUTCOME]
 
 
-def test_it_gives_up_at_its_cap_and_evaluates_once_more_there(tmp_path: Path) -> None:
+def test_an_sb3_training_ends_at_its_cap_with_one_more_evaluation(tmp_path: Path) -> None:
     outcome = trained(training(tmp_path / "job", job(episodes=12), NeverKnows))
     assert [row.episode for row in outcome.runs[0].evaluations] == [5, 10, 12]
 
 
-def test_a_job_that_is_stopped_starts_over_and_goes_the_same_way(tmp_path: Path) -> None:
+def test_a_stopped_sb3_job_starts_over_and_has_the_same_outcome(tmp_path: Path) -> None:
     straight = trained(training(tmp_path / "straight"))
     stopped = training(tmp_path / "stopped")
     for _ in range(7):
@@ -72,7 +72,7 @@ def test_a_job_that_is_stopped_starts_over_and_goes_the_same_way(tmp_path: Path)
     assert trained(training(tmp_path / "stopped")).runs == straight.runs
 
 
-def test_epsilon_falls_with_the_episodes_and_every_run_has_a_seed_of_its_own(tmp_path: Path) -> None:
+def test_epsilon_falls_with_the_episodes_and_every_run_has_its_own_seed(tmp_path: Path) -> None:
     own = training(tmp_path, job(episodes=40), NeverKnows)
     model = own._model
     assert isinstance(model, MadeModel)
@@ -87,7 +87,7 @@ def test_epsilon_falls_with_the_episodes_and_every_run_has_a_seed_of_its_own(tmp
     assert other.seed != model.seed
 
 
-def test_a_full_disk_is_one_line(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_full_disk_is_reported(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     own = training(tmp_path)
     while not own.finished:
         own.tick()
@@ -101,7 +101,7 @@ def env() -> Sb3Env:
     return Sb3Env(GridVectorEnv([BAR]), [BAR])
 
 
-def test_its_spaces_are_the_ten_actions_and_a_value_each_of_x_y_b_and_m() -> None:
+def test_the_sb3_env_has_ten_actions_and_discrete_values_of_x_y_b_and_m() -> None:
     assert env().action_space == Discrete(10)
     assert env().observation_space == MultiDiscrete([15, 15, 4, 3])
     assert env().observation_space.contains(env().reset()[0])
@@ -122,7 +122,7 @@ def test_the_builder_earns_the_optimum() -> None:
     assert (own.episodes, own.steps) == (1, 1 + len(build(BAR)))
 
 
-def test_a_first_action_that_is_no_material_ends_the_episode_with_nothing() -> None:
+def test_a_first_action_that_chooses_no_material_ends_the_episode_with_score_0() -> None:
     own = Sb3Env(GridVectorEnv([DOT]), [DOT])
     own.reset()
     _, reward, terminated, _, info = own.step(5)
@@ -137,7 +137,7 @@ def test_a_long_episode_is_truncated() -> None:
     assert not any(truncated for _, truncated in flags[:-1])
 
 
-def test_without_the_library_it_says_how_to_get_it(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_missing_stable_baselines3_is_reported_with_the_install_command(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(sb3, "is_installed", lambda: False)
     monkeypatch.setitem(sys.modules, "stable_baselines3", None)  # importing it would raise another error
     with pytest.raises(RunError, match=r"stable-baselines3 isn't installed: pip install .*\[bench\]"):

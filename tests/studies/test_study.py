@@ -1,4 +1,4 @@
-"""A study of one's own: all that it takes is one file, here these lines."""
+"""A user's own study takes one file, here these lines."""
 
 from collections.abc import Sequence
 from pathlib import Path

@@ -42,7 +42,7 @@ def test_the_base_of_each_agent_comes_first() -> None:
         assert [variant.scenario_from(scenario) for scenario in SCENARIOS] == SCENARIOS
 
 
-def test_one_choice_at_a_time_is_changed() -> None:
+def test_each_variant_changes_one_choice() -> None:
     for variant in varied(PAPER, SCENARIOS)[2:]:
         preset = variant.preset_from(PAPER).model_dump()
         tables = [key for key, value in PAPER.model_dump().items() if preset[key] != value]
@@ -57,7 +57,7 @@ def test_every_shipped_preset_can_be_swept(preset: str) -> None:
     assert len({(run.group, run.scenario.name, run.trial) for run in runs}) == len(runs)
 
 
-def test_practice_in_a_learnt_game_is_swept_without_what_it_can_not_take() -> None:
+def test_a_preset_with_imagination_is_swept_without_choices_that_do_not_apply() -> None:
     live = load_preset("model-based")
     choices = {variant.choice for variant in varied(live, SCENARIOS)}
     assert choices.isdisjoint({"replay", "main ε, share", "main ε, floor", "nested ε, share", "single, its choice"})
@@ -85,7 +85,7 @@ def test_a_variant_changes_the_values_it_names_and_no_others() -> None:
     assert (moved.start, moved.design, moved.step_limit) == ((7, 0), SCENARIOS[1].design, 60)
 
 
-def test_a_variant_that_does_not_fit_is_one_line_that_names_it() -> None:
+def test_an_invalid_variant_is_refused_with_its_name() -> None:
     with pytest.raises(PresetError, match=r"variant γ: 2: update\.gamma: Input should be less than or equal to 1"):
         Change(choice="γ", value="2", preset={"update": {"gamma": 2.0}}).preset_from(PAPER)
     with pytest.raises(PresetError, match=r"variant γ: 2: update\.gama: unknown key: did you mean gamma\?"):
@@ -104,7 +104,7 @@ def test_runs_that_differ_in_their_scenarios_alone_train_side_by_side() -> None:
     assert changes < len({run.group for run in runs}) - 1
 
 
-def test_what_a_preset_or_a_design_can_not_do_is_left_out() -> None:
+def test_variants_that_a_preset_or_a_design_can_not_take_are_left_out() -> None:
     assert {variant.agent for variant in varied(load_preset("tuned"), SCENARIOS)} == {"nested"}
     cells = frozenset((x, y) for x in range(15) for y in range(3, 6))
     large = Scenario("large", cells, (7, 14), 200, SCENARIOS[0].materials)

@@ -1,4 +1,4 @@
-"""What each choice of a sweep does beside its own agent's base: effects, table, figure."""
+"""The report of a sweep: the effect of each choice beside its own agent's base, table, figure."""
 
 import csv
 from pathlib import Path
@@ -42,7 +42,7 @@ def line_of(choice: str) -> list[str]:
     )
 
 
-def test_a_change_stands_beside_the_base_of_its_own_agent() -> None:
+def test_a_change_is_compared_with_the_base_of_its_own_agent() -> None:
     effects = {(effect.arm.agent, effect.choice): effect for effect in effects_on(TRIALS, "line")}
     assert list(effects) == [("nested", ""), ("single", ""), ("nested", "γ"), ("nested", "rate"), ("single", "state")]
     worse, better = effects["nested", "γ"], effects["single", "state"]
@@ -61,7 +61,7 @@ def test_a_base_has_no_effect_and_no_interval() -> None:
     assert base.final_interval is base.mean_interval is None
 
 
-def test_the_same_scores_in_another_order_are_no_clear_effect() -> None:
+def test_the_same_scores_in_another_order_have_an_interval_around_0() -> None:
     interval = next(effect for effect in effects_on(TRIALS, "line") if effect.choice == "rate").final_interval
     assert interval
     assert interval.low < 0 < interval.high
@@ -72,7 +72,7 @@ def test_a_single_trial_has_no_interval() -> None:
     assert all(effect.final_interval is None for effect in effects_on(alone, "line"))
 
 
-def test_a_line_has_the_figures_of_its_change() -> None:
+def test_each_table_line_has_the_figures_of_its_change() -> None:
     cells = line_of("state")
     assert cells[:4] == ["single", "state", "blind", "12.00"]
     assert cells[4:6] == ["+2.00", "+2.00 to +2.00"]
@@ -81,18 +81,18 @@ def test_a_line_has_the_figures_of_its_change() -> None:
     assert line_of("rate")[10:] == ["2 of 3", "60"]
 
 
-def test_a_base_is_compared_with_nothing() -> None:
+def test_the_table_line_of_a_base_has_no_differences() -> None:
     assert line_of(r"**base**")[:6] == ["nested", "**base**", "", "20.67", "", ""]
 
 
-def test_it_says_what_was_run_and_how_many_intervals_there_are() -> None:
+def test_the_report_names_the_preset_the_trials_and_the_number_of_intervals() -> None:
     assert "the preset `paper`, seed 0: 3 trials of 90 episodes" in TEXT
     assert "of 12 intervals some 1 leave out 0" in TEXT
     assert "## zig|zag, optimum 21" in TEXT
     assert "](sweep.png)" in TEXT
 
 
-def test_a_report_is_three_files_and_the_same_each_time(tmp_path: Path) -> None:
+def test_the_same_trials_give_the_same_three_report_files(tmp_path: Path) -> None:
     found = []
     for name in ("first", "second"):
         (tmp_path / name).mkdir()
@@ -106,7 +106,7 @@ def test_a_report_is_three_files_and_the_same_each_time(tmp_path: Path) -> None:
     assert (abs(picture.astype(int) - (0xB2, 0x72, 0x00)).max(axis=2) < 8).any()
 
 
-def test_the_table_has_a_row_for_each_trial_and_leaves_never_empty(tmp_path: Path) -> None:
+def test_the_csv_file_has_a_row_per_trial_and_an_empty_cell_for_never(tmp_path: Path) -> None:
     write_report(tmp_path, STUDY, REPORT)
     with (tmp_path / "sweep.csv").open(newline="", encoding="utf-8") as file:
         header, *rows = list(csv.reader(file))

@@ -10,5 +10,5 @@ def test_the_table_is_plain_csv_with_unix_line_ends(tmp_path: Path) -> None:
     assert (tmp_path / "table.csv").read_bytes() == b'agent,score\nnested,20.5\n"a, b",\n'
 
 
-def test_episodes_are_whole_from_a_hundred_on_and_infinite_for_never() -> None:
+def test_numbers_of_episodes_are_whole_from_a_hundred_on_and_infinity_for_never() -> None:
     assert [episodes(number) for number in (6.5, 9.0, 1234.5, float("inf"))] == ["6.5", "9", "1,234", "∞"]

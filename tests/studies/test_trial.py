@@ -27,7 +27,7 @@ def outcome(job: Job) -> JobOutcome:
     return JobOutcome(identity="", networks=2, parameters=9, seconds=4.0, runs=runs)
 
 
-def test_trials_come_in_one_order_however_they_were_cut_into_jobs() -> None:
+def test_the_order_of_trials_does_not_depend_on_the_order_of_jobs() -> None:
     jobs = config_of("some", ARMS, trials=2, seed=0, jobs=3).cut()
     trials = trials_of(ARMS, [(job, outcome(job)) for job in reversed(jobs)])
     assert [(trial.arm.name, trial.scenario.name, trial.number) for trial in trials] == [
@@ -47,11 +47,11 @@ def test_trials_come_in_one_order_however_they_were_cut_into_jobs() -> None:
         ([(10, 3.0), (20, 19.0)], None),
     ],
 )
-def test_every_episode_counts_the_greedy_ones_too(evaluations: list[tuple[int, float]], played: int | None) -> None:
+def test_played_to_optimum_counts_greedy_episodes_too(evaluations: list[tuple[int, float]], played: int | None) -> None:
     assert made_trial(made_arm("any"), LINE, 0, evaluations).played_to_optimum == played
 
 
-def test_a_table_has_a_row_for_each_trial_or_each_greedy_episode_and_an_arms_labels_are_columns() -> None:
+def test_tables_have_a_row_per_trial_or_greedy_episode_and_columns_for_labels() -> None:
     arm = made_arm("images: numbers", labels={"agent": "numbers"})
     trials = [made_trial(arm, LINE, number, [(30, 2.0), (60, 4.0)]) for number in (0, 1)]
     assert trial_table(trials, ("agent", "trial", "mean_score", "best_score")).rows == [

@@ -26,19 +26,19 @@ def p_of(for_it: float, against: float) -> Evidence:
         (0.01, 0.01, HOLDS),
     ],
 )
-def test_a_test_decides_at_five_per_cent_and_the_one_for_the_claim_goes_first(
+def test_a_verdict_needs_p_below_five_per_cent_and_the_claims_own_test_comes_first(
     own: float, against: float, verdict: Verdict
 ) -> None:
     # The opposite's own p is in the tails, its corrected one decides.
     assert verdict_of(p_of(own, 0.001), against) is verdict
 
 
-def test_without_a_test_nothing_is_decided() -> None:
+def test_evidence_without_a_test_is_undecided() -> None:
     assert verdict_of(Evidence("what"), None) is UNDECIDED
 
 
 @pytest.mark.parametrize("verdict", list(Verdict))
-def test_what_is_counted_needs_no_test(verdict: Verdict) -> None:
+def test_counted_evidence_needs_no_test(verdict: Verdict) -> None:
     assert verdict_of(Evidence("what", counted=verdict), None) is verdict
 
 
@@ -54,17 +54,17 @@ def test_what_is_counted_needs_no_test(verdict: Verdict) -> None:
         ([], NOT_RUN),
     ],
 )
-def test_a_claim_holds_where_all_its_evidence_does(verdicts: list[Verdict], verdict: Verdict) -> None:
+def test_a_claim_holds_only_if_all_its_evidence_holds(verdicts: list[Verdict], verdict: Verdict) -> None:
     assert verdict_on_all(verdicts) is verdict
 
 
-def test_every_line_passes_by_its_own_p_however_many_there_are() -> None:
+def test_each_line_passes_by_its_own_p_value_in_a_claim_of_any_length() -> None:
     found = judged(claim(*(p_of(0.049, 1) for _ in range(20))))
     assert found.verdict is HOLDS
     assert judged(claim(p_of(0.049, 1), p_of(0.051, 1))).verdict is UNDECIDED
 
 
-def test_of_the_opposites_one_is_enough_so_they_are_corrected_within_the_claim() -> None:
+def test_one_opposite_fails_a_claim_after_correction_for_all_opposites_in_the_claim() -> None:
     # Three opposites: 0.01 x 3, 0.02 x 2, 0.9.
     found = judged(claim(p_of(1, 0.02), p_of(1, 0.01), Evidence("untested"), p_of(0.5, 0.9)))
     assert [finding.against for finding in found.findings] == pytest.approx([0.04, 0.03, None, 0.9])
@@ -72,6 +72,6 @@ def test_of_the_opposites_one_is_enough_so_they_are_corrected_within_the_claim()
     assert found.verdict is FAILS
 
 
-def test_an_opposite_that_would_do_alone_may_not_among_others() -> None:
+def test_an_opposite_that_fails_a_short_claim_may_leave_a_longer_one_undecided() -> None:
     assert judged(claim(p_of(1, 0.03))).verdict is FAILS
     assert judged(claim(p_of(1, 0.03), p_of(1, 0.9))).verdict is UNDECIDED

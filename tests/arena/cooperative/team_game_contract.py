@@ -1,4 +1,4 @@
-"""What every TeamGame must do, whatever is behind it; test_team_game_contract checks that wrong ones fail it."""
+"""The contract of every TeamGame, whatever is behind it; test_team_game_contract checks that wrong ones fail it."""
 
 from collections.abc import Callable, Sequence
 

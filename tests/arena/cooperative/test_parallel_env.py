@@ -38,7 +38,7 @@ def test_each_agent_observes_its_cell_the_blocks_left_and_its_number() -> None:
     assert space.high.tolist() == [14, 14, 11, 1]
 
 
-def test_all_end_at_the_same_tick_with_the_teams_score() -> None:
+def test_all_agents_end_at_the_same_tick_with_the_teams_score() -> None:
     env = cooperative_env("line", 2)
     env.reset()
     for _ in range(59):
@@ -65,7 +65,7 @@ def test_an_unknown_material_is_refused_in_one_line() -> None:
         cooperative_env("line", 2).reset(options={"material": "gold"})
 
 
-def test_without_pettingzoo_only_this_environment_is_missing_and_says_what_to_install() -> None:
+def test_only_the_cooperative_env_needs_pettingzoo_and_names_the_command_to_install_pettingzoo() -> None:
     program = (
         "import sys; sys.modules['pettingzoo'] = None\n"
         "import mc_nested, mc_nested.arena.cooperative, sim.team_grid\n"

@@ -32,7 +32,7 @@ def test_builders_begin_spread_along_the_row_of_the_scenarios_start(builders: in
 
 
 @given(st.integers(SMALLEST_SIZE, 32), st.integers(1, 4), st.data())
-def test_every_builder_has_a_cell_of_its_own_in_any_arena(size: int, builders: int, data: st.DataObject) -> None:
+def test_builders_start_on_distinct_cells_in_any_arena(size: int, builders: int, data: st.DataObject) -> None:
     cells = st.tuples(st.integers(0, size - 1), st.integers(0, size - 1))
     scenario = dataclasses.replace(LINE, size=size, design=frozenset({(0, 1)}), start=data.draw(cells))
     starts = team_of(scenario, builders).starts
@@ -46,7 +46,7 @@ def test_an_arena_takes_one_to_four_builders(builders: int) -> None:
         team_of(LINE, builders)
 
 
-def test_two_builders_never_start_on_one_cell() -> None:
+def test_two_builders_that_start_on_one_cell_are_refused() -> None:
     with pytest.raises(ScenarioError, match=r"^builders 0 and 2 both start on cell \(7, 14\): give each a cell of its"):
         Team(LINE, ((7, 14), (3, 3), (7, 14)))
 
@@ -56,7 +56,7 @@ def test_a_start_outside_the_arena_is_refused() -> None:
         Team(LINE, ((7, 14), (15, 0)))
 
 
-def test_a_team_builds_a_design_without_parts() -> None:
+def test_a_scenario_with_parts_is_refused_for_several_builders() -> None:
     with pytest.raises(ScenarioError, match=r"^scenario flag has parts: several builders take one without$"):
         team_of(load_scenario("flag"), 2)
 
@@ -75,11 +75,11 @@ def test_nobody_moves_into_a_builders_cell() -> None:
     assert tick([(3, 3), (4, 3)], [R, F]) == (Outcome((3, 3), None), Outcome((4, 4), None))
 
 
-def test_a_cell_that_a_lower_number_left_is_free_in_the_same_tick() -> None:
+def test_a_cell_left_by_a_builder_of_lower_number_is_free_in_the_same_tick() -> None:
     assert tick([(4, 3), (3, 3)], [F, R]) == (Outcome((4, 4), None), Outcome((4, 3), None))
 
 
-def test_of_two_that_want_one_cell_the_lower_number_gets_it() -> None:
+def test_the_builder_of_lower_number_gets_a_cell_that_two_builders_want() -> None:
     assert tick([(3, 3), (5, 3)], [R, L]) == (Outcome((4, 3), None), Outcome((5, 3), None))
 
 
@@ -91,26 +91,26 @@ def test_no_block_lands_on_a_builder_but_the_move_is_done() -> None:
     assert tick([(3, 3), (4, 4)], [RD, None]) == (Outcome((4, 3), None), Outcome((4, 4), None))
 
 
-def test_a_block_of_a_lower_number_stops_the_others_in_the_same_tick() -> None:
+def test_a_block_of_a_builder_of_lower_number_stops_the_others_in_the_same_tick() -> None:
     assert tick([(3, 4), (4, 4)], [BD, L]) == (Outcome((3, 3), (3, 4)), Outcome((4, 4), None))
     assert tick([(4, 4), (3, 4)], [L, BD]) == (Outcome((4, 4), None), Outcome((3, 3), (3, 4)))
 
 
-def test_a_builder_that_another_one_stops_still_places_in_front_of_it() -> None:
+def test_a_builder_stopped_by_another_still_places_a_block() -> None:
     assert tick([(3, 3), (3, 4)], [None, BD]) == (Outcome((3, 3), None), Outcome((3, 4), (3, 5)))
 
 
 @pytest.mark.parametrize(("left", "second"), [(2, (9, 5)), (1, None)])
-def test_the_blocks_left_are_the_teams(left: int, second: Cell | None) -> None:
+def test_builders_share_the_blocks_left(left: int, second: Cell | None) -> None:
     assert tick([(3, 5), (9, 5)], [BD, BD], left=left) == (Outcome((3, 4), (3, 5)), Outcome((9, 4), second))
 
 
-def test_none_instead_of_an_action_does_nothing() -> None:
+def test_a_builder_with_none_as_action_does_nothing() -> None:
     assert tick([(3, 3)], [None]) == (Outcome((3, 3), None),)
 
 
 @given(st.lists(st.sampled_from(Action), max_size=60))
-def test_one_builder_alone_has_the_rules_of_one(actions: list[Action]) -> None:
+def test_a_builder_alone_follows_the_rules_of_one_agent(actions: list[Action]) -> None:
     cell, placed = (7, 14), set[Cell]()
     for action in actions:
         (outcome,) = resolved([cell], placed, [action], SIZE, 99)

@@ -35,13 +35,13 @@ def begun(team: Team, material: int = STONE, runs: int = 1) -> TeamVectorEnv:
 
 
 def after(env: TeamVectorEnv, *ticks: Sequence[int]) -> tuple[Any, ...]:
-    """Return what the last of these ticks led to, as lists: observations, rewards, terminated, truncated and scores."""
+    """Return the outcome of the last tick as lists: observations, rewards, terminated, truncated and scores."""
     for tick in ticks:
         observations, rewards, terminated, truncated, info = env.step(np.array(tick))
     return tuple(each.tolist() for each in (observations, rewards, terminated, truncated, info["score"]))
 
 
-def test_each_observes_its_own_cell_and_the_teams_blocks() -> None:
+def test_each_builder_observes_its_own_cell_and_the_teams_blocks() -> None:
     env = TeamVectorEnv([TeamGrid(Team(LINE, ((7, 12), (3, 3))))], Team(LINE, ((7, 12), (3, 3))))
     assert env.reset()[0].tolist() == [[7, 12, 11], [3, 3, 11]]
     observations, rewards, *_ = after(env, [BD, L])
@@ -51,7 +51,7 @@ def test_each_observes_its_own_cell_and_the_teams_blocks() -> None:
     assert env.placed(0) == env.placed(1) == {(7, 12)}
 
 
-def test_each_earns_for_its_own_block_and_the_score_is_the_teams() -> None:
+def test_each_builder_earns_for_its_own_block_and_the_team_shares_the_score() -> None:
     two = dataclasses.replace(LINE, design=frozenset({(7, 12), (3, 3)}))
     env = begun(Team(two, ((7, 12), (3, 3))), WOOD)
     _, rewards, terminated, truncated, scores = after(env, [BD, BD])
@@ -68,7 +68,7 @@ def test_blocks_off_the_design_are_used_up_and_earn_nothing() -> None:
     assert env.placed(0) == {(7, 12)}, "the other had no block left"
 
 
-def test_the_step_limit_counts_ticks_and_then_nothing_is_done_until_a_reset() -> None:
+def test_the_step_limit_counts_ticks_and_ends_the_episode_until_a_reset() -> None:
     env = begun(team_of(dataclasses.replace(LINE, step_limit=2), 2))
     assert after(env, [L, L])[3] == [False, False]
     observations, _, terminated, truncated, scores = after(env, [NO_ACTION, L])
@@ -78,13 +78,13 @@ def test_the_step_limit_counts_ticks_and_then_nothing_is_done_until_a_reset() ->
     assert again[1:] == ([0.0] * 2, [False] * 2, [True] * 2, [0.0] * 2)
 
 
-def test_where_nobody_acts_no_tick_is_counted() -> None:
+def test_a_tick_in_which_nobody_acts_is_not_counted() -> None:
     env = begun(team_of(dataclasses.replace(LINE, step_limit=2), 2))
     assert after(env, [L, L], [NO_ACTION, NO_ACTION])[3] == [False, False]
     assert after(env, [L, L])[3] == [True, True]
 
 
-def test_nothing_is_done_before_a_reset() -> None:
+def test_a_step_before_the_first_reset_raises() -> None:
     team = team_of(LINE, 2)
     with pytest.raises(ResetNeeded):
         TeamVectorEnv([TeamGrid(team)], team).step(np.array([F, F]))
@@ -97,7 +97,7 @@ class Fails(TeamGrid):
         raise RuntimeError("gone")
 
 
-def test_after_an_error_the_arena_has_to_be_reset() -> None:
+def test_an_arena_needs_a_reset_after_an_error() -> None:
     team = team_of(LINE, 2)
     env = TeamVectorEnv([Fails(team)], team)
     env.reset()
@@ -108,7 +108,7 @@ def test_after_an_error_the_arena_has_to_be_reset() -> None:
     assert env.reset()[0].tolist() == [[7, 14, 11], [14, 14, 11]]
 
 
-def test_arenas_are_reset_and_end_by_themselves() -> None:
+def test_each_arena_ends_and_is_reset_independently() -> None:
     team = Team(dataclasses.replace(LINE, design=frozenset({(7, 12)})), ((7, 12), (3, 3)))
     env = begun(team, runs=2)
     observations, rewards, terminated, _, scores = after(env, [L, L, BD, L])
@@ -120,7 +120,7 @@ def test_arenas_are_reset_and_end_by_themselves() -> None:
 
 
 @given(st.lists(st.sampled_from(Action), max_size=70), st.sampled_from([WOOD, STONE]))
-def test_one_builder_is_the_arena_of_one(actions: list[Action], material: int) -> None:
+def test_a_team_of_one_steps_as_the_arena_of_one_agent(actions: list[Action], material: int) -> None:
     ours, theirs = begun(team_of(LINE, 1), material), GridVectorEnv([LINE])
     theirs.reset(options={"material": np.array([material])})
     for action in actions:
@@ -136,7 +136,7 @@ def test_the_scripted_builder_alone_reaches_the_optimum_while_the_other_waits() 
     assert after(env, *([action, NO_ACTION] for action in build(LINE)))[-1] == [LINE.optimum] * 2
 
 
-def test_an_episode_goes_on_where_it_was_saved() -> None:
+def test_a_restored_episode_continues_as_the_saved_one() -> None:
     env, other = (begun(team_of(LINE, 3), WOOD, runs=2) for _ in range(2))
     after(env, [BD, BD, L, F, F, F])
     kept = env.snapshot()
@@ -151,7 +151,7 @@ def test_an_episode_goes_on_where_it_was_saved() -> None:
 TEAM = Team(LINE, ((7, 14), (3, 14)))
 
 
-def test_builders_are_their_numbers_in_text() -> None:
+def test_the_text_drawing_shows_builders_as_their_numbers() -> None:
     rows = draw_team_text(TEAM, [(7, 1), (0, 0)], {(7, 2), (5, 5)}).splitlines()
     assert rows[-1] == "1" + " ." * 14
     assert rows[-2].split()[7] == "0"
@@ -159,12 +159,12 @@ def test_builders_are_their_numbers_in_text() -> None:
     assert rows[-6].split()[5:8] == ["x", ".", "o"]
 
 
-def test_one_builder_is_drawn_as_the_agent() -> None:
+def test_a_builder_alone_is_drawn_as_the_agent() -> None:
     ours = draw_team_picture(Team(LINE, (LINE.start,)), [(4, 4)], {(7, 2)})
     np.testing.assert_array_equal(ours, draw_picture(LINE, (4, 4), {(7, 2)}))
 
 
-def test_each_builder_has_its_colour_in_its_cell() -> None:
+def test_each_builder_is_drawn_in_its_own_colour() -> None:
     cells = [(0, 0), (14, 0), (0, 14), (14, 14)]
     picture = draw_team_picture(Team(LINE, tuple(cells)), cells, set(), cell_px=16)
     for (x, y), body in zip(cells, BODIES, strict=True):
@@ -173,7 +173,7 @@ def test_each_builder_has_its_colour_in_its_cell() -> None:
         assert not any((tile == other).all(axis=-1).any() for other in BODIES if other != body)
 
 
-def test_a_render_mode_says_what_is_drawn() -> None:
+def test_the_render_mode_selects_text_a_picture_or_nothing() -> None:
     assert rendered_team(None, TEAM, TEAM.starts, ()) is None
     assert rendered_team("ansi", TEAM, TEAM.starts, ()) == draw_team_text(TEAM, TEAM.starts, ())
     assert rendered_team("rgb_array", TEAM, TEAM.starts, ()).shape == (240, 240, 3)

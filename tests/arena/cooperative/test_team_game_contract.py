@@ -48,18 +48,18 @@ class ForgetsItsBlocks(TeamGrid):
         super().restore({**snapshot, "team_game_placed": np.zeros((15, 15), np.bool_)})
 
 
-def test_the_simulator_passes() -> None:
+def test_the_simulator_passes_the_team_contract() -> None:
     check_team_game(TeamGrid(BESIDE), BESIDE, TICKS)
 
 
 @given(st.integers(1, 4), st.data())
-def test_the_simulator_passes_over_any_actions(builders: int, data: st.DataObject) -> None:
+def test_the_simulator_passes_the_team_contract_over_any_actions(builders: int, data: st.DataObject) -> None:
     tick = st.tuples(*[st.sampled_from([*Action, None])] * builders)
     team = team_of(LINE, builders)
     check_team_game(TeamGrid(team), team, data.draw(st.lists(tick, max_size=40)))
 
 
 @pytest.mark.parametrize("liar", [LetsThemWalkThroughEachOther, ActsInAnotherOrder, StartsElsewhere, ForgetsItsBlocks])
-def test_a_team_game_with_wrong_outcomes_fails(liar: Callable[[Team], TeamGrid]) -> None:
+def test_a_team_game_with_wrong_outcomes_fails_the_contract(liar: Callable[[Team], TeamGrid]) -> None:
     with pytest.raises(AssertionError):
         check_team_game(liar(BESIDE), BESIDE, TICKS)

@@ -24,7 +24,7 @@ def engine_of(name: str, rows: int, rule: UpdateRule = RULE) -> Engine:
 
 
 def batch_of(rows: int, seed: int) -> Batch:
-    """Return a batch for so many rows.
+    """Return a random batch for that many rows.
 
     Some rewards are far beyond δ, so that both branches of the Huber loss are taken.
     """

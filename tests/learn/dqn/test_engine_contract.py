@@ -1,4 +1,4 @@
-"""What every engine keeps to, and that both compute the same."""
+"""The contract of every engine, and that both engines compute the same."""
 
 import numpy as np
 import pytest
@@ -12,7 +12,7 @@ ENGINES = pytest.mark.parametrize("name", [COMPILED, TORCH])
 
 
 @pytest.mark.parametrize("rows", [1, 4])
-def test_two_hundred_updates_of_the_papers_network_are_the_same_in_both(rows: int) -> None:
+def test_both_engines_agree_after_two_hundred_updates_of_the_papers_network(rows: int) -> None:
     rule = RULE._replace(target_period=50)
     ours, theirs = engine_of(COMPILED, rows, rule), engine_of(TORCH, rows, rule)
     np.testing.assert_array_equal(ours.online, theirs.online)
@@ -29,7 +29,7 @@ def test_two_hundred_updates_of_the_papers_network_are_the_same_in_both(rows: in
 
 
 @pytest.mark.parametrize("rows", [None, [2, 0], [2, 1, 0], [1]])
-def test_values_are_the_same_in_both(rows: list[int] | None) -> None:
+def test_both_engines_give_the_same_q_values(rows: list[int] | None) -> None:
     ours, theirs = engine_of(COMPILED, 3), engine_of(TORCH, 3)
     named = None if rows is None else np.array(rows)
     states = np.array([5, 77, 1234])[: len(rows or [0, 1, 2])]
@@ -37,7 +37,7 @@ def test_values_are_the_same_in_both(rows: list[int] | None) -> None:
 
 
 @pytest.mark.parametrize("saved_by", [COMPILED, TORCH])
-def test_what_one_engine_saved_the_other_goes_on_with(saved_by: str) -> None:
+def test_each_engine_continues_from_the_other_engines_saved_state(saved_by: str) -> None:
     one, other = engine_of(saved_by, 2), engine_of(TORCH if saved_by == COMPILED else COMPILED, 2)
     for update in range(5):
         one.update(np.arange(2), batch_of(2, update))
@@ -49,7 +49,7 @@ def test_what_one_engine_saved_the_other_goes_on_with(saved_by: str) -> None:
 
 
 @ENGINES
-def test_the_target_network_follows_every_period_and_stands_still_between(name: str) -> None:
+def test_the_target_network_is_renewed_every_period_and_unchanged_in_between(name: str) -> None:
     engine = engine_of(name, 1)
     first = engine.target.copy()
     for update in range(1, 3):
@@ -61,7 +61,7 @@ def test_the_target_network_follows_every_period_and_stands_still_between(name: 
 
 
 @ENGINES
-def test_rows_that_are_not_named_stay_as_they_are(name: str) -> None:
+def test_an_update_leaves_unnamed_rows_unchanged(name: str) -> None:
     engine = engine_of(name, 4)
     engine.update(np.arange(4), batch_of(4, 1))
     before = {part_: kept.copy() for part_, kept in engine.state().items()}
@@ -73,7 +73,7 @@ def test_rows_that_are_not_named_stay_as_they_are(name: str) -> None:
 
 
 @ENGINES
-def test_a_loaded_engine_goes_on_to_the_bit(name: str) -> None:
+def test_a_loaded_engine_continues_to_the_bit(name: str) -> None:
     one, other = engine_of(name, 2), engine_of(name, 2)
     one.update(np.arange(2), batch_of(2, 1))
     other.load({part_: kept.copy() for part_, kept in one.state().items()})
@@ -95,7 +95,7 @@ def test_networks_of_another_shape_are_refused(name: str) -> None:
 
 
 @ENGINES
-def test_loaded_networks_are_the_targets_too(name: str) -> None:
+def test_loading_online_networks_also_sets_the_target_networks(name: str) -> None:
     engine = engine_of(name, 2)
     engine.load_online(engine.online[::-1].copy())
     np.testing.assert_array_equal(engine.target, engine.online)
@@ -103,7 +103,7 @@ def test_loaded_networks_are_the_targets_too(name: str) -> None:
 
 
 @ENGINES
-def test_networks_that_diverge_are_an_error_that_names_the_learning_rate_at_once(name: str) -> None:
+def test_diverging_networks_raise_an_error_that_names_the_learning_rate(name: str) -> None:
     engine = engine_of(name, 2, RULE._replace(learning_rate=1e38))
 
     def update_while_finite() -> None:
@@ -117,7 +117,7 @@ def test_networks_that_diverge_are_an_error_that_names_the_learning_rate_at_once
 
 
 @ENGINES
-def test_there_is_no_loss_and_no_value_before_the_first_update(name: str) -> None:
+def test_loss_and_q_value_are_nan_before_a_rows_first_update(name: str) -> None:
     engine = engine_of(name, 2)
     engine.update(np.array([1]), batch_of(1, 3))
     assert np.isnan(engine.last_loss()).tolist() == [True, False]

@@ -1,4 +1,4 @@
-"""What goes together in a preset, and one line for what doesn't."""
+"""Which settings of a preset go together, and the one-line refusals of those that don't."""
 
 import pytest
 
@@ -6,13 +6,13 @@ from mc_nested.errors import PresetError
 from mc_nested.learn.preset import load_preset
 
 
-def test_the_preset_image_alone_sets_engine_states_and_network() -> None:
+def test_the_preset_image_sets_engine_states_network_and_device() -> None:
     image = load_preset("image")
     assert (image.engine, image.states, image.network, image.device) == ("torch", "image", "cnn", "cpu")
 
 
 @pytest.mark.parametrize("name", ["paper", "tuned"])
-def test_the_torch_engine_takes_the_presets_of_numbers(name: str) -> None:
+def test_presets_with_numeric_states_can_switch_to_the_torch_engine(name: str) -> None:
     preset = load_preset(name)
     changed = preset.changed(engine="torch", device="cuda")
     assert (changed.engine, changed.device, changed.update) == ("torch", "cuda", preset.update)
@@ -35,7 +35,7 @@ def test_the_torch_engine_takes_the_presets_of_numbers(name: str) -> None:
         ("paper", {"device": "tpu", "engine": "torch"}, "must be cpu, cuda or mps"),
     ],
 )
-def test_settings_that_do_not_go_together_are_refused_in_one_line(name: str, keys: dict[str, str], says: str) -> None:
+def test_invalid_or_incompatible_settings_are_refused_in_one_line(name: str, keys: dict[str, str], says: str) -> None:
     with pytest.raises(PresetError, match=says) as caught:
         load_preset(name).changed(**keys)
     assert "\n" not in str(caught.value)

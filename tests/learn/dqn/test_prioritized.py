@@ -1,4 +1,4 @@
-"""Prioritized replay: draws in proportion, weights that take the bias back, and sums that always add up."""
+"""Prioritized replay: draws in proportion, weights that correct the bias, and sums that always add up."""
 
 import numpy as np
 import pytest
@@ -11,7 +11,7 @@ ROW = np.array([0])
 
 
 def priorities_of(errors: list[float], alpha: float = 1.0, beta: float = 1.0, room: int = 4) -> Priorities:
-    """Return one run's transitions, each with that TD error."""
+    """Return the priorities of one run whose transitions have these TD errors."""
     priorities = Priorities(runs=1, room=room, alpha=alpha, beta=beta)
     for place in range(len(errors)):
         priorities.add(ROW, np.array([place]))
@@ -25,18 +25,18 @@ def counts(priorities: Priorities, kinds: int) -> list[int]:
     return [int(count) for count in np.bincount(drawn[0], minlength=kinds)]
 
 
-def test_draws_are_in_proportion_to_the_errors() -> None:
+def test_transitions_are_drawn_in_proportion_to_their_td_errors() -> None:
     assert counts(priorities_of([1.0, 3.0, 0.0, 6.0]), 4) == pytest.approx([100, 300, 0, 600], abs=1)
 
 
-def test_the_parts_are_those_of_what_is_not_replaced() -> None:
+def test_priorities_are_split_evenly_among_the_draws_that_are_not_replaced() -> None:
     priorities = priorities_of([1.0] * 4)
     drawn = priorities.sample(np.array([0, 0]), np.full((2, 6), 0.5), np.array([2, 0]))
     assert drawn[0, 2:].tolist() == [0, 1, 2, 3]
     assert drawn[1].tolist() == priorities.sample(ROW, np.full((1, 6), 0.5))[0].tolist()
 
 
-def test_alpha_takes_roots_and_0_is_uniform() -> None:
+def test_alpha_is_the_exponent_of_priorities_and_0_draws_uniformly() -> None:
     assert counts(priorities_of([1.0, 16.0], alpha=0.5), 2) == pytest.approx([200, 800], abs=1)
     assert counts(priorities_of([1.0, 16.0], alpha=0.0), 2) == [500, 500]
 
@@ -47,7 +47,7 @@ def test_a_new_transition_has_the_highest_priority_seen() -> None:
     assert counts(priorities, 3) == pytest.approx([1000 / 7, 3000 / 7, 3000 / 7], abs=2)
 
 
-def test_weights_are_the_inverse_of_the_share_relative_to_the_batchs_largest() -> None:
+def test_importance_weights_are_inverse_shares_scaled_by_the_batchs_largest_weight() -> None:
     # Shares 1/4 and 3/4 of two transitions: (2 · 1/4)⁻¹ = 2 and (2 · 3/4)⁻¹ = 2/3, a third of it.
     weights = priorities_of([1.0, 3.0]).weights(ROW, np.array([[0, 1]]), np.array([2]))
     assert weights.tolist() == [[1.0, pytest.approx(1 / 3, rel=0.01)]]
@@ -56,7 +56,7 @@ def test_weights_are_the_inverse_of_the_share_relative_to_the_batchs_largest() -
 
 
 @given(st.lists(st.floats(0, 10), min_size=1, max_size=40), st.floats(0, 1, exclude_max=True))
-def test_what_is_drawn_is_there_however_the_memory_grew(errors: list[float], number: float) -> None:
+def test_only_stored_transitions_are_drawn_after_the_memory_has_grown(errors: list[float], number: float) -> None:
     priorities = priorities_of(errors, room=2)
     drawn = priorities.sample(ROW, np.full((1, 7), number))
     assert drawn.min() >= 0
@@ -66,7 +66,7 @@ def test_what_is_drawn_is_there_however_the_memory_grew(errors: list[float], num
     assert not leaves[len(errors) :].any()
 
 
-def test_runs_keep_to_themselves() -> None:
+def test_each_run_draws_by_its_own_priorities() -> None:
     priorities = Priorities(runs=2, room=4, alpha=1.0, beta=1.0)
     priorities.add(np.array([0, 1]), np.array([0, 0]))
     priorities.add(np.array([1]), np.array([1]))
@@ -74,7 +74,7 @@ def test_runs_keep_to_themselves() -> None:
     assert priorities.sample(np.array([0, 1]), np.full((2, 3), 0.5)).tolist() == [[0, 0, 0], [1, 1, 1]]
 
 
-def test_saved_priorities_draw_the_same() -> None:
+def test_loaded_priorities_draw_the_same_transitions() -> None:
     one, other = priorities_of([1.0, 2.0, 3.0, 4.0, 5.0]), Priorities(1, 2, 1.0, 1.0)
     other.load({name: kept.copy() for name, kept in one.state().items()})
     assert counts(other, 5) == counts(one, 5)

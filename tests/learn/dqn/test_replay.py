@@ -1,4 +1,4 @@
-"""Uniform replay: what goes in comes out, the oldest gives way, and each run keeps to itself."""
+"""Uniform replay: stored transitions are drawn, the oldest are overwritten, and each run draws its own."""
 
 import numpy as np
 import pytest
@@ -35,7 +35,7 @@ def numbers(drawn: Transitions) -> list[list[int]]:
     return [[int(number) for number in row] for row in found]
 
 
-def test_what_the_numbers_point_at_is_drawn() -> None:
+def test_sample_draws_the_transitions_that_the_random_numbers_select() -> None:
     replay = replay_of(2, 10)
     for step in range(4):
         replay.add(np.array([0, 1]), transition(step, 100 + step))
@@ -43,7 +43,7 @@ def test_what_the_numbers_point_at_is_drawn() -> None:
     assert numbers(drawn_from(replay, np.array([0, 1]), uniforms)) == [[0, 0, 1, 2, 3], [103, 100, 102, 101, 101]]
 
 
-def test_what_a_run_holds_is_counted_in_bytes_and_not_the_room_for_more() -> None:
+def test_bytes_held_counts_stored_transitions_and_not_spare_room() -> None:
     replay = replay_of(2, 3)
     for step in range(5):
         replay.add(np.array([0]), transition(step))
@@ -53,7 +53,7 @@ def test_what_a_run_holds_is_counted_in_bytes_and_not_the_room_for_more() -> Non
     assert replay_of(1, 3, states=7650).bytes_held().tolist() == [0]
 
 
-def test_runs_fill_at_their_own_pace() -> None:
+def test_replays_of_several_runs_fill_independently() -> None:
     replay = replay_of(3, 10)
     replay.add(np.array([2]), transition(7))
     replay.add(np.array([0, 2]), transition(8, 9))
@@ -61,7 +61,7 @@ def test_runs_fill_at_their_own_pace() -> None:
     assert numbers(drawn_from(replay, np.array([2, 0]), np.array([[0.9], [0.9]]))) == [[9], [8]]
 
 
-def test_the_oldest_gives_way_when_it_is_full() -> None:
+def test_a_full_replay_overwrites_its_oldest_transitions() -> None:
     replay = replay_of(1, 3)
     for step in range(5):
         replay.add(np.array([0]), transition(step))
@@ -71,7 +71,7 @@ def test_the_oldest_gives_way_when_it_is_full() -> None:
 
 
 @given(uniform=st.floats(0, 1, exclude_max=True), size=st.integers(1, 9))
-def test_every_draw_is_one_of_the_runs_own(uniform: float, size: int) -> None:
+def test_a_run_draws_only_its_own_transitions(uniform: float, size: int) -> None:
     replay = replay_of(2, 100)
     for step in range(size):
         replay.add(np.array([0]), transition(step))
@@ -80,7 +80,7 @@ def test_every_draw_is_one_of_the_runs_own(uniform: float, size: int) -> None:
 
 
 @given(before=st.integers(0, 50), since=st.integers(0, 30), capacity=st.integers(5, 40))
-def test_taken_back_it_holds_exactly_what_it_held(before: int, since: int, capacity: int) -> None:
+def test_take_back_restores_the_transitions_held_at_the_mark(before: int, since: int, capacity: int) -> None:
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(replay_module, "FIRST_ROOM", 4)
         replay = replay_of(2, capacity)
@@ -96,7 +96,7 @@ def test_taken_back_it_holds_exactly_what_it_held(before: int, since: int, capac
     assert sorted(seen) == list(range(max(0, before - capacity), before))
 
 
-def test_a_mark_is_good_for_as_many_additions_as_it_was_made_for() -> None:
+def test_a_mark_refuses_to_take_back_more_additions_than_announced() -> None:
     replay = replay_of(1, 3)
     mark = replay.mark(2)
     for step in range(3):
@@ -111,7 +111,7 @@ def test_a_mark_is_good_for_as_many_additions_as_it_was_made_for() -> None:
     after=st.integers(0, 40),
     capacity=st.integers(5, 30),
 )
-def test_journals_around_what_was_taken_back_bring_back_what_is_held(
+def test_journals_restore_a_replay_from_which_additions_were_taken_back(
     before: int, spoiled: list[tuple[int, int]], after: int, capacity: int
 ) -> None:
     replay, copy = (replay_of(1, capacity) for _ in range(2))
@@ -145,7 +145,7 @@ def test_draws_are_uniform() -> None:
 
 
 @given(steps=st.integers(1, 40), capacity=st.integers(5, 30))
-def test_growing_and_a_saved_copy_change_nothing(steps: int, capacity: int) -> None:
+def test_a_grown_replay_and_its_saved_copy_draw_the_same_as_a_large_one(steps: int, capacity: int) -> None:
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(replay_module, "FIRST_ROOM", 4)
         grown = replay_of(1, capacity)
@@ -163,7 +163,7 @@ def test_growing_and_a_saved_copy_change_nothing(steps: int, capacity: int) -> N
 
 
 @given(st.lists(st.integers(0, 25), min_size=1, max_size=5).filter(any), st.integers(5, 30))
-def test_what_was_added_in_parts_is_the_whole(parts: list[int], capacity: int) -> None:
+def test_a_replay_extended_in_parts_equals_the_whole(parts: list[int], capacity: int) -> None:
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(replay_module, "FIRST_ROOM", 4)
         replay, copy = (replay_of(2, capacity) for _ in range(2))
@@ -179,14 +179,14 @@ def test_what_was_added_in_parts_is_the_whole(parts: list[int], capacity: int) -
     assert numbers(drawn_from(copy, np.array([1]), grid)) == numbers(drawn_from(replay, np.array([1]), grid))
 
 
-def test_a_run_that_holds_nothing_yields_blanks() -> None:
+def test_an_empty_run_draws_blank_transitions() -> None:
     replay = replay_of(2, 10)
     replay.add(np.array([1]), transition(8))
     assert drawn_from(replay, np.array([0, 1]), np.array([[0.0], [0.9]])).states[0].tolist() == [[0], [8]]
 
 
 @pytest.mark.parametrize(("states", "bytes_a_number"), [(256, 2), (65_535, 2), (200_000, 4)])
-def test_states_are_kept_in_as_few_bytes_as_their_number_takes(states: int, bytes_a_number: int) -> None:
+def test_states_are_stored_in_as_few_bytes_as_the_number_of_states_needs(states: int, bytes_a_number: int) -> None:
     replay = replay_of(1, 10, states=states)
     replay.add(
         np.array([0]), Transitions(np.full((2, 1), states - 1), np.array([7]), np.array([1.0]), np.array([0.95]))
@@ -197,9 +197,7 @@ def test_states_are_kept_in_as_few_bytes_as_their_number_takes(states: int, byte
 
 
 @pytest.mark.parametrize(("actions", "bytes_an_action"), [(8, 1), (256, 1), (257, 2), (70_000, 4)])
-def test_every_action_is_kept_as_it_is_in_as_few_bytes_as_their_number_takes(
-    actions: int, bytes_an_action: int
-) -> None:
+def test_actions_survive_storage_in_the_fewest_bytes_that_hold_them(actions: int, bytes_an_action: int) -> None:
     replay, copy = (replay_of(1, 10, states=10, actions=actions) for _ in range(2))
     last = np.array([actions - 1])
     replay.add(np.array([0]), Transitions(np.zeros((2, 1), dtype=np.int64), last, np.ones(1), np.ones(1)))

@@ -31,7 +31,7 @@ def drawn(rows: int, batch: int) -> Transitions:
     return Transitions(np.stack([whole] * 2), whole.copy(), whole.astype(np.float32), whole.astype(np.float32))
 
 
-def test_the_first_transitions_of_a_batch_are_the_best_episodes() -> None:
+def test_the_best_episode_fills_the_first_places_of_a_batch() -> None:
     best = BestEpisodes(rows=3, longest=10, share=2)
     best.keep(1, transitions(10, 11, 12, 13))
     batch = drawn(rows=2, batch=3)
@@ -43,7 +43,7 @@ def test_the_first_transitions_of_a_batch_are_the_best_episodes() -> None:
 
 
 @pytest.mark.parametrize("shorter", [True, False])
-def test_a_better_episode_replaces_the_last_one(shorter: bool) -> None:
+def test_a_newly_kept_episode_replaces_the_last_one(shorter: bool) -> None:
     best = BestEpisodes(rows=1, longest=10, share=8)
     best.keep(0, transitions(*range(5)))
     best.keep(0, transitions(*range(20, 22 if shorter else 29)))

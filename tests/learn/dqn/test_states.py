@@ -1,4 +1,4 @@
-"""States as numbers, and what a network takes for each."""
+"""States as numbers, and the inputs that a network takes for each."""
 
 import numpy as np
 import pytest
@@ -9,7 +9,7 @@ from mc_nested.learn.dqn.states import StateSpace, one_hot, scaled
 
 
 @given(st.lists(st.integers(0, 9), min_size=1, max_size=4), st.data())
-def test_every_state_has_a_number_of_its_own(highest: list[int], data: st.DataObject) -> None:
+def test_every_state_has_a_distinct_index(highest: list[int], data: st.DataObject) -> None:
     space = StateSpace(np.array([highest]), actions=2)
     states = [np.array([data.draw(st.integers(0, top)) for top in highest]) for _ in range(2)]
     one, other = (int(space.index(state)) for state in states)
@@ -17,17 +17,17 @@ def test_every_state_has_a_number_of_its_own(highest: list[int], data: st.DataOb
     assert 0 <= min(one, other) <= max(one, other) < space.count == np.prod(np.array(highest) + 1)
 
 
-def test_x_y_b_are_scaled_to_one_around_zero_and_the_main_action_is_plus_or_minus_one() -> None:
+def test_x_y_b_and_the_main_action_are_scaled_to_between_minus_one_and_one() -> None:
     highest = np.array([14, 14, 11, 1])
     assert scaled(np.array([0, 7, 11, 0]), highest).tolist() == [-1.0, 0.0, 1.0, -1.0, 1.0]
     assert scaled(np.array([14, 14, 0, 1]), highest).tolist() == [1.0, 1.0, -1.0, 1.0, 1.0]
 
 
-def test_the_choice_of_a_single_material_says_nothing() -> None:
+def test_the_main_action_is_scaled_to_0_where_there_is_one_material() -> None:
     assert scaled(np.array([14, 0]), np.array([14, 0])).tolist() == [1.0, 0.0, 1.0]
 
 
-def test_three_materials_lie_on_one_dimension() -> None:
+def test_three_materials_are_scaled_to_minus_1_0_and_1() -> None:
     assert scaled(np.array([[0], [1], [2]]), np.array([2]))[:, 0].tolist() == [-1.0, 0.0, 1.0]
 
 
@@ -42,11 +42,11 @@ def test_each_row_is_scaled_by_its_own_scenario(rows: list[int]) -> None:
         assert space.features_of(row)[state].tolist() == [-1.0, 1.0, 1.0, 1.0]
 
 
-def test_one_hot_gives_each_value_an_input_of_its_own() -> None:
+def test_one_hot_gives_each_value_a_separate_input() -> None:
     assert one_hot(np.array([1, 0, 2]), np.array([2, 2, 3])).tolist() == [0, 1, 1, 0, 0, 0, 1, 1]
 
 
-def test_one_hot_networks_of_other_scenarios_have_inputs_enough_for_all() -> None:
+def test_one_hot_inputs_suffice_for_the_largest_of_several_scenarios() -> None:
     space = StateSpace(np.array([[14, 14, 11], [14, 14, 16]]), actions=8, encoding="one-hot")
     assert space.inputs == 15 + 15 + 17
     state = space.index(np.array([14, 0, 11]))
@@ -54,7 +54,7 @@ def test_one_hot_networks_of_other_scenarios_have_inputs_enough_for_all() -> Non
         assert np.flatnonzero(space.features_of(row)[state]).tolist() == [14, 15, 30 + 11, 47]
 
 
-def test_a_cell_has_an_input_of_its_own_and_so_has_each_value_of_the_other_integers() -> None:
+def test_the_cell_encoding_has_an_input_for_each_cell_and_each_value_of_the_other_integers() -> None:
     space = StateSpace(np.array([[1, 2, 4, 1]]), actions=8, encoding="cell")
     # (x, y) = (1, 0) is the fourth of six cells; then b = 3 of five values, a_M = 0 of two, and the 1.
     state = space.index(np.array([1, 0, 3, 0]))
@@ -62,7 +62,7 @@ def test_a_cell_has_an_input_of_its_own_and_so_has_each_value_of_the_other_integ
 
 
 @pytest.mark.parametrize("encoding", ["scaled", "one-hot", "cell"])
-def test_the_parts_of_a_state_are_its_features(encoding: str) -> None:
+def test_a_states_cell_part_and_rest_part_together_are_its_features(encoding: str) -> None:
     space = StateSpace(np.array([[4, 4, 3, 1], [6, 6, 5, 1]]), actions=8, encoding=encoding)
     for row in (0, 1):
         features, rest = space.features_of(row), space.rest_of(row)
@@ -77,7 +77,7 @@ def test_a_large_arena_with_many_blocks_takes_little_memory() -> None:
     assert space.inputs == 32 * 32 + 101 + 2
 
 
-def test_a_states_index_is_that_of_its_cell_and_of_the_rest() -> None:
+def test_a_states_index_combines_its_cell_and_the_rest_of_the_state() -> None:
     space = StateSpace(np.array([[3, 2, 4, 1]]), actions=8, encoding="cell")
     assert space.cells == 4 * 3
     assert space.inputs == 4 * 3 + 5 + 2
@@ -100,7 +100,7 @@ def test_every_encoding_tells_all_states_apart(encoding: str) -> None:
     assert (space.table[:, -1] == 1.0).all()
 
 
-def test_rows_of_other_scenarios_have_inputs_enough_for_the_largest() -> None:
+def test_cell_inputs_suffice_for_the_largest_of_several_scenarios() -> None:
     space = StateSpace(np.array([[4, 4, 3], [6, 6, 5]]), actions=8, encoding="cell")
     assert space.inputs == 7 * 7 + 6
     state = space.index(np.array([4, 4, 3]))

@@ -1,4 +1,4 @@
-"""Return, then explore, by hand: what is walked again, where it is left, what is avoided, which episode is the best.
+"""Return, then explore, by hand: which steps are repeated, avoided and left, and which episode is the best.
 
 Of many runs, each has its own episodes, and the best are handed to the right learner's row.
 """
@@ -56,13 +56,13 @@ def after(walk: list[EpisodeStep], rule: ExcursionRule = RULE, row: int = 0) -> 
     return excursions
 
 
-def test_the_first_excursion_has_nothing_to_follow_and_wanders() -> None:
+def test_the_first_excursion_wanders_at_random() -> None:
     excursions = ReturnThenExplore(RULE, actions=8)
     excursions.begin(numbers(0.5, 0.5, 0.5))
     assert [excursions.next_action(7, 14, numbers(NEVER, NEVER, which)) for which in (0.0, 0.5, 0.99)] == [0, 4, 7]
 
 
-def test_the_best_episode_is_walked_again_until_it_is_left() -> None:
+def test_an_excursion_repeats_the_best_episode_up_to_its_leaving_step() -> None:
     excursions = after(WALK)
     # 0.6 of the 4 ways to leave a walk of 3 steps is behind its second step.
     excursions.begin(numbers(NEVER, 0.6, 0.0))
@@ -72,7 +72,7 @@ def test_the_best_episode_is_walked_again_until_it_is_left() -> None:
     assert excursions.next_action(7, 12, numbers(NEVER, NEVER, 0.0)) == 0
 
 
-def test_at_the_chosen_share_it_is_followed_to_its_end() -> None:
+def test_a_number_below_at_end_makes_an_excursion_repeat_the_whole_best_episode() -> None:
     excursions = after(WALK)
     excursions.begin(numbers(0.09, 0.0, 0.0))
     actions = []
@@ -82,7 +82,7 @@ def test_at_the_chosen_share_it_is_followed_to_its_end() -> None:
     assert actions == [each.action for each in WALK]
 
 
-def test_where_a_step_slips_the_best_episode_is_left_and_explored_from_there() -> None:
+def test_a_slip_makes_an_excursion_leave_the_best_episode_and_explore() -> None:
     excursions = after(WALK)
     excursions.begin(numbers(0.0, 0.0, 0.4))  # follow it to its end, then wander 1 + int(0.4 · 3) = 2 steps
     assert excursions.next_action(7, 14, numbers(NEVER, NEVER, 0.0)) == 1
@@ -92,7 +92,7 @@ def test_where_a_step_slips_the_best_episode_is_left_and_explored_from_there() -
     assert excursions.next_action(7, 12, numbers(ALWAYS, NEVER, 0.0)) == 6, "it may rejoin after a step of its own"
 
 
-def test_a_block_that_was_not_placed_is_a_slip_too() -> None:
+def test_a_missed_placement_counts_as_a_slip() -> None:
     excursions = after(WALK)
     excursions.begin(numbers(0.0, 0.0, 0.0))
     for each in (WALK[0], WALK[1]._replace(used_block=False, reward=0.0)):
@@ -110,26 +110,26 @@ def test_an_action_that_wasted_a_block_in_a_cell_is_not_repeated_there() -> None
     assert elsewhere == set(range(8))
 
 
-def test_where_every_action_wasted_a_block_any_action_is_allowed() -> None:
+def test_any_action_is_allowed_in_a_cell_where_every_action_wasted_a_block() -> None:
     excursions = after([step(7, 14, action, used=True, reward=0.0) for action in range(8)])
     excursions.begin(numbers(NEVER, 0.0, 0.0))
     assert excursions.next_action(7, 14, numbers(NEVER, NEVER, 0.99)) == 7
 
 
-def test_a_placing_known_to_lie_on_the_design_is_repeated_as_often_as_the_rule_says() -> None:
+def test_an_action_known_to_build_on_the_design_is_repeated_with_the_rules_probability() -> None:
     excursions = after([*WALK[:1], WALK[1]])
     excursions.begin(numbers(NEVER, 0.0, 0.0))
     assert excursions.next_action(7, 13, numbers(NEVER, 0.79, 0.3)) == 5
     assert excursions.next_action(7, 13, numbers(NEVER, 0.81, 0.3)) == 2
 
 
-def test_an_occupied_cell_in_front_teaches_nothing_about_a_placing() -> None:
+def test_a_step_that_placed_no_block_does_not_undo_knowledge_of_its_action() -> None:
     excursions = after([WALK[0], WALK[1], step(7, 13, 5, used=False)])
     excursions.begin(numbers(NEVER, 0.0, 0.0))
     assert excursions.next_action(7, 13, numbers(NEVER, 0.0, 0.0)) == 5
 
 
-def test_wandering_may_rejoin_the_path_it_meets_within_its_steps() -> None:
+def test_a_wandering_excursion_may_rejoin_the_best_episode_within_its_steps() -> None:
     excursions = after(WALK)
     excursions.begin(numbers(NEVER, 0.0, 0.4))  # leave at once, wander 1 + int(0.4 · 3) = 2 steps
     assert excursions.next_action(7, 14, numbers(ALWAYS, NEVER, 0.0)) == 0, "there is no rejoining before a step"
@@ -142,19 +142,19 @@ def test_wandering_may_rejoin_the_path_it_meets_within_its_steps() -> None:
     assert excursions.next_action(7, 12, numbers(ALWAYS, NEVER, 0.0)) == 0, "three steps are more than it may wander"
 
 
-def test_after_a_wasted_block_the_path_is_left_for_good() -> None:
+def test_an_excursion_never_rejoins_the_best_episode_after_a_wasted_block() -> None:
     excursions = after(WALK)
     excursions.begin(numbers(NEVER, 0.0, 0.99))
     excursions.observe(step(7, 13, 7, used=True, reward=0.0))
     assert excursions.next_action(7, 12, numbers(ALWAYS, NEVER, 0.0)) == 0
 
 
-def test_the_best_episode_ends_with_its_last_block_and_counts_only_until_the_first_wasted() -> None:
+def test_the_best_episode_is_cut_after_the_last_block_before_the_first_wasted_one() -> None:
     excursions = after([*WALK, step(5, 5, 0), step(5, 6, 4, used=True, reward=0.0), step(5, 7, 5, True, 1.0)])
     assert excursions.best == WALK
 
 
-def test_more_blocks_are_better_then_fewer_steps_and_as_good_replaces() -> None:
+def test_an_episode_becomes_the_best_with_more_blocks_or_as_many_in_no_more_steps() -> None:
     excursions = after(WALK, row=3)
     worse, longer = WALK[:2], [step(6, 14, 2), *WALK]
     equal = [step(8, 14, 1, state=900), *WALK[1:]]
@@ -166,14 +166,14 @@ def test_more_blocks_are_better_then_fewer_steps_and_as_good_replaces() -> None:
     assert excursions.best == [each._replace(row=5) for each in equal]
 
 
-def test_a_loop_is_cut_out() -> None:
+def test_without_loops_cuts_out_loops() -> None:
     a, b, c = step(1, 1, 0), step(1, 2, 1), step(1, 3, 2)
     assert without_loops([a, b, c, b, a, c]) == [a, c]
     assert without_loops([a, a._replace(action=7)]) == [a._replace(action=7)]
 
 
 @given(st.lists(st.integers(0, 6), max_size=30))
-def test_without_loops_no_state_is_seen_twice_and_every_step_leads_to_the_next(states: list[int]) -> None:
+def test_a_walk_without_loops_visits_each_state_once_and_stays_connected(states: list[int]) -> None:
     walk = [
         step(0, 0, 0, state=now)._replace(next_state=then) for now, then in zip(states, [*states[1:], 99], strict=False)
     ]
@@ -184,12 +184,12 @@ def test_without_loops_no_state_is_seen_twice_and_every_step_leads_to_the_next(s
         assert (kept[0].state, kept[-1]) == (walk[0].state, walk[-1])
 
 
-def test_blocks_are_counted() -> None:
+def test_blocks_in_counts_the_blocks_of_a_walk() -> None:
     assert blocks_in(WALK) == 2
 
 
 @pytest.mark.parametrize("steps", [0, 1, 2])
-def test_saved_excursions_go_on_where_they_were(steps: int) -> None:
+def test_a_loaded_excursion_continues_where_the_saved_one_was(steps: int) -> None:
     one, other = after(WALK, row=1), ReturnThenExplore(RULE, actions=8)
     one.begin(numbers(NEVER, 0.6, 0.9))
     for each in WALK[:steps]:
@@ -207,7 +207,7 @@ def test_saved_excursions_go_on_where_they_were(steps: int) -> None:
     assert one.best == other.best
 
 
-def test_a_plan_leaves_the_best_episode_at_a_step_and_wanders_a_part_of_the_most() -> None:
+def test_an_excursions_plan_draws_its_leaving_step_and_its_wandering_steps() -> None:
     rule = ExcursionRule(at_end=0.1, wander=12, rejoin=0.4, repeat=0.8)
     explorer = ReturnThenExplore(rule, actions=8)
     explorer.begin(np.array([0.9, 0.0, 0.5]))
@@ -221,9 +221,7 @@ def test_a_plan_leaves_the_best_episode_at_a_step_and_wanders_a_part_of_the_most
 
 
 @pytest.mark.parametrize(("which", "action"), [(0.0, 3), (0.6, 4)])
-def test_where_the_best_episode_passed_twice_a_number_says_from_which_step_it_is_followed(
-    which: float, action: int
-) -> None:
+def test_a_number_picks_the_step_at_which_a_cell_passed_twice_is_rejoined(which: float, action: int) -> None:
     explorer = ReturnThenExplore(ExcursionRule(at_end=0.1, wander=12, rejoin=1.0, repeat=0.0), actions=8)
     steps = [(7, 13, 3), (7, 12, 0), (7, 13, 4), (7, 12, 0)]
     explorer.best = [EpisodeStep(x, y, i, act, 0.0, i + 1, False, False) for i, (x, y, act) in enumerate(steps)]
@@ -232,7 +230,7 @@ def test_where_the_best_episode_passed_twice_a_number_says_from_which_step_it_is
     assert explorer.next_action(7, 13, np.array([0.5, 0.5, which])) == action
 
 
-def test_what_is_on_the_design_is_known_for_each_part() -> None:
+def test_actions_are_known_to_build_or_waste_blocks_separately_for_each_part() -> None:
     excursions = ReturnThenExplore(RULE, actions=8, parts=2)
     excursions.begin(numbers(0, 0, 0))
     excursions.observe(step(7, 13, 5, used=True, reward=1.0))
@@ -243,7 +241,7 @@ def test_what_is_on_the_design_is_known_for_each_part() -> None:
     assert drawn == {0, 1, 2, 3, 4, 6, 7}, "and wasted while the second is built"
 
 
-def test_the_best_episode_is_rejoined_in_the_part_that_is_built() -> None:
+def test_the_best_episode_is_rejoined_only_at_a_step_of_the_same_part() -> None:
     ends = WALK[-1]._replace(part=1)
     walk = [*WALK[:2], ends]
     for part, action in ((1, ends.action), (0, 0)):
@@ -255,7 +253,7 @@ def test_the_best_episode_is_rejoined_in_the_part_that_is_built() -> None:
         assert excursions.next_action(ends.x, ends.y, numbers(ALWAYS, NEVER, 0.0), part) == action
 
 
-def test_parts_and_rows_of_saved_steps_come_back() -> None:
+def test_saved_steps_keep_their_parts_and_rows() -> None:
     one = ReturnThenExplore(RULE, actions=8, parts=2)
     one.best = [step(7, 14, 1)._replace(row=3), step(7, 13, 5, True, 1.0)._replace(part=1, row=2)]
     other = ReturnThenExplore(RULE, actions=8, parts=2)
@@ -274,7 +272,7 @@ NUMBERS = Excursions.numbers
 
 
 class Done(NamedTuple):
-    """The state before it, the action, r_N, the state after it, and whether that was the last."""
+    """One step: the state before, the action, r_N, the state after, and whether the episode terminated."""
 
     before: Sequence[int]
     action: int
@@ -288,7 +286,7 @@ def excursions_of(agent: Agent, *scenarios: Scenario) -> Excursions:
 
 
 def observe(explorer: Excursions, run: int, seen: Done, runs: int = 1, material: int = 0) -> None:
-    """Let one run observe that; nothing happens in the others."""
+    """Let one run observe a step; nothing happens in the others."""
     before, action, reward, after, terminated = seen
     running = np.arange(runs) == run
     states, next_states = (np.repeat(np.array([state]), runs, axis=0) for state in (before, after))
@@ -358,7 +356,7 @@ def test_an_excursion_repeats_the_runs_own_best_episode() -> None:
     assert act(explorer, 0, START, numbers) == 7
 
 
-def test_a_loaded_exploration_goes_on_and_imitates_what_it_did() -> None:
+def test_a_loaded_exploration_acts_and_imitates_as_the_saved_one() -> None:
     agent, explorer = of_two_runs()
     played(explorer, run=0, material=1)
     other_agent, other = of_two_runs()
@@ -371,7 +369,7 @@ def test_a_loaded_exploration_goes_on_and_imitates_what_it_did() -> None:
         assert act(other, run, START, numbers) == act(explorer, run, START, numbers)
 
 
-def test_without_imitation_no_best_episode_is_kept_for_it() -> None:
+def test_a_learner_keeps_no_best_episodes_without_imitation() -> None:
     agent = Agent(AGENT_SPECS["nested"], [DOT], PRESET.model_copy(update={"imitation": None}), 0)
     explorer = excursions_of(agent, DOT)
     explorer.begin(np.array([0]), np.zeros((1, NUMBERS)))
@@ -381,7 +379,7 @@ def test_without_imitation_no_best_episode_is_kept_for_it() -> None:
     assert explorer.state()["0.best"].shape == (1, 10)
 
 
-def test_in_a_larger_arena_it_remembers_what_happened_beyond_15_cells() -> None:
+def test_excursions_remember_outcomes_beyond_15_cells_in_a_larger_arena() -> None:
     far = dataclasses.replace(DOT, design=frozenset({(19, 19)}), start=(19, 19), size=20)
     explorer = excursions_of(Agent(AGENT_SPECS["hierarchical"], [far], PRESET, 0), far)
     only, start = np.array([0]), np.array([[19, 19, 1]])
@@ -394,7 +392,7 @@ def test_in_a_larger_arena_it_remembers_what_happened_beyond_15_cells() -> None:
     assert act(explorer, 0, start, np.zeros((1, NUMBERS))) == Action.BD
 
 
-def test_each_row_imitates_its_own_steps_of_an_episode_in_parts() -> None:
+def test_each_materials_agent_imitates_its_own_steps_of_an_episode_with_parts() -> None:
     agent = Agent(AGENT_SPECS["hierarchical"], [STRIPES], PRESET, 0)
     explorer = excursions_of(agent, STRIPES)
     states = [(1, 1, 5), (1, 2, 4), (2, 2, 3)]
@@ -409,7 +407,7 @@ def test_each_row_imitates_its_own_steps_of_an_episode_in_parts() -> None:
     assert imitated(again) == [1, 2]
 
 
-def test_a_runs_first_episode_takes_nothing_from_another_run() -> None:
+def test_a_runs_first_episode_leaves_another_runs_imitation_unchanged() -> None:
     agent, explorer = of_two_runs("nested")
     explorer.begin(BOTH, np.zeros((2, NUMBERS)))
     for run in (0, 1):
@@ -418,7 +416,7 @@ def test_a_runs_first_episode_takes_nothing_from_another_run() -> None:
     assert imitated(agent) == [1, 1]
 
 
-def test_what_was_wasted_in_one_part_is_tried_in_another() -> None:
+def test_an_action_that_wasted_a_block_in_one_part_is_tried_in_another() -> None:
     agent = Agent(AGENT_SPECS["nested"], [STRIPES], PRESET, 0)
     explorer = excursions_of(agent, STRIPES)
     only, far, near = np.array([0]), np.array([[1, 1, 5]]), np.array([[1, 1, 3]])

@@ -22,7 +22,7 @@ def test_the_main_agents_epsilon_falls_faster_and_stays_higher() -> None:
     assert main[540] == pytest.approx(0.01)
 
 
-def test_a_presets_epsilons_are_its_own_or_those_of_its_way_to_explore() -> None:
+def test_epsilon_decays_come_from_the_preset_or_from_its_exploration() -> None:
     main, nested = decays_of(load_preset("paper"))
     assert (main, nested) == (LinearDecay(1.0, 0.01, 0.18), LinearDecay(1.0, 0.001, 0.6))
     assert decays_of(load_preset("model-based")) == (NEVER, NEVER)

@@ -22,7 +22,7 @@ def learner_of(
 
 
 def game_of(scenario: Scenario, preset: Preset, agent: str = "nested") -> Play:
-    """Return a game that plays what is planned; what it begins with is of another seed than the learner's."""
+    """Return a game that plays plans; its initial networks have another seed than the learner's."""
     player = Agent(AGENT_SPECS[agent], [scenario], preset, seed=99)
     arena = player.view_of(ArenaVectorEnv([ArenaEnv(GridGame(scenario), scenario)]), [scenario])
     return lambda plan: play_episode(arena, plan, player)

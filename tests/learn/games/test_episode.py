@@ -1,4 +1,4 @@
-"""Episodes of games: one a game is out until it is back, left or superseded.
+"""Episodes of games: each game has one out, until it comes back, is left or is superseded.
 
 A game plays what was planned: with the plan's network alone, without torch, and only whole episodes.
 """
@@ -37,7 +37,7 @@ def out_of(*episodes: EpisodeOut) -> EpisodesOut:
     return out
 
 
-def test_an_episode_is_removed_once() -> None:
+def test_an_episode_can_be_removed_only_once() -> None:
     episode = an_episode(3)
     out = out_of(episode)
     assert out.remove(3) is episode
@@ -45,21 +45,21 @@ def test_an_episode_is_removed_once() -> None:
     assert len(out) == 0
 
 
-def test_a_game_that_leaves_takes_its_own_episode_along_and_no_other() -> None:
+def test_a_leaving_game_removes_its_own_episode_alone() -> None:
     out = out_of(an_episode(3), an_episode(4))
     out.leave("game 3")
     assert out.remove(3) is None
     assert out.remove(4) is not None
 
 
-def test_together_they_probe_what_each_probes_and_play_what_each_plays() -> None:
+def test_probes_and_materials_of_all_episodes_out_are_combined() -> None:
     out = out_of(an_episode(3, probes=frozenset({(1, 1)})), an_episode(4, probes=frozenset({(1, 1), (2, 1)})))
     assert out.probes == {(1, 1), (2, 1)}
     assert out.materials == {0, 1}
     assert (EpisodesOut().probes, EpisodesOut().materials) == (frozenset(), frozenset())
 
 
-def test_older_evaluations_are_superseded_and_training_episodes_are_not() -> None:
+def test_superseding_removes_older_evaluations_and_keeps_training_episodes() -> None:
     out = out_of(an_episode(1, greedy=True), an_episode(2), an_episode(3, greedy=True))
     assert out.newest_evaluation == 30
     out.supersede(30)
@@ -82,7 +82,7 @@ def assert_equal(one: PlayedEpisode, other: PlayedEpisode) -> None:
 
 
 @pytest.mark.parametrize("agent", ["nested", "hierarchical", "single"])
-def test_a_greedy_plan_is_played_as_the_learners_networks_play(agent: str) -> None:
+def test_a_game_plays_a_greedy_plan_as_the_learners_networks_do(agent: str) -> None:
     learner = learner_of(BENT, PAPER, agent=agent, seed=3)
     learner.begin_from(learner.agent.online())
     plan = learner.plan("game")
@@ -95,26 +95,26 @@ def test_a_greedy_plan_is_played_as_the_learners_networks_play(agent: str) -> No
     assert played.steps == len(played.rewards) == len(played.observations) - 1
 
 
-def test_the_same_plan_is_the_same_episode_and_stays_as_it_is() -> None:
+def test_playing_a_plan_twice_gives_the_same_episode_and_leaves_the_plan_unchanged() -> None:
     plan = learner_of(BENT, SMALL).plan("game")
     before, play = pickle.dumps(plan), game_of(BENT, SMALL)
     assert_equal(play(plan), play(pickle.loads(before)))  # noqa: S301 - our own
     assert pickle.dumps(plan) == before
 
 
-def test_with_an_epsilon_of_1_the_plans_numbers_are_the_actions() -> None:
+def test_the_plans_random_numbers_choose_every_action_at_an_epsilon_of_1() -> None:
     plan = learner_of(BENT, PAPER).plan("game")
     assert (plan.epsilon, plan.numbers.shape) == (1.0, (BENT.step_limit, 2))
     played = game_of(BENT, PAPER)(plan)
     assert played.actions.tolist() == [int(8 * number) for number in plan.numbers[: played.steps, 1]]
 
 
-def test_the_first_tries_go_on_within_the_episode() -> None:
+def test_a_game_tries_each_action_in_turn_within_its_first_episode() -> None:
     played = game_of(BENT, SMALL)(learner_of(BENT, SMALL).plan("game"))
     assert played.actions[: len(Action)].tolist() == sorted(Action)[: played.steps]
 
 
-def test_an_error_of_the_game_passes_through() -> None:
+def test_play_episode_passes_on_an_error_of_the_game() -> None:
     game = StartsOver(BENT)
     game.acts_left = 3
     arena = ArenaVectorEnv([ArenaEnv(game, BENT)])
@@ -137,7 +137,7 @@ Path(sys.argv[2]).write_bytes(pickle.dumps(game_of(BENT, SMALL)(plan)))
 
 
 @pytest.mark.slow
-def test_a_process_without_torch_plays_what_it_is_sent(tmp_path: Path) -> None:
+def test_a_process_without_torch_plays_a_pickled_plan(tmp_path: Path) -> None:
     plan = learner_of(BENT, SMALL).plan("game")
     sent, back = tmp_path / "plan", tmp_path / "episode"
     sent.write_bytes(pickle.dumps(plan))

@@ -36,7 +36,7 @@ def trainer_in(folder: RunFolder) -> Trainer:
 
 
 @pytest.mark.parametrize("preset", [SMALL, small_preset(12)], ids=["imagining", "paper"])
-def test_a_saved_learner_goes_on_to_the_bit_and_says_what_it_came_to(tmp_path: Path, preset: Preset) -> None:
+def test_a_resumed_learner_finishes_with_the_same_files_as_an_uninterrupted_one(tmp_path: Path, preset: Preset) -> None:
     whole, halved, play = (
         folder_in(tmp_path / "whole", preset),
         folder_in(tmp_path / "halved", preset),
@@ -58,7 +58,7 @@ def test_a_saved_learner_goes_on_to_the_bit_and_says_what_it_came_to(tmp_path: P
     assert summary["final_scores"] == [resumed.policy_scores[0]]
 
 
-def test_a_trainer_goes_on_with_what_a_learner_began_and_the_other_way_round(tmp_path: Path) -> None:
+def test_a_trainer_resumes_a_learners_run_and_a_learner_a_trainers(tmp_path: Path) -> None:
     alone, play = finished(trainer_in(folder_in(tmp_path / "alone"))), game_of(BENT, SMALL)
     begun_by_games, begun_by_trainer = folder_in(tmp_path / "games"), folder_in(tmp_path / "trainer")
 

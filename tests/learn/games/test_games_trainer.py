@@ -1,4 +1,4 @@
-"""A learner with several games: what counts and what doesn't, how their episodes differ, and when it is finished."""
+"""A learner with several games: which episodes count, how they differ, and when the run is finished."""
 
 import itertools
 from dataclasses import replace
@@ -54,7 +54,7 @@ def with_a_known_design(stops: bool = False) -> tuple[GamesTrainer, EpisodePlan]
 
 
 def cells_of(played: PlayedEpisode) -> set[tuple[int, int]]:
-    """Return where its blocks landed: a cell ahead of the agent."""
+    """Return the cells where the episode's blocks landed, each ahead of the agent."""
     used = played.observations[1:, 2] < played.observations[:-1, 2]
     return {(int(x), int(y) + 1) for x, y in played.observations[1:][used][:, :2]}
 
@@ -78,7 +78,7 @@ def test_an_episode_that_another_learner_planned_does_not_count() -> None:
     assert learner.take(played)
 
 
-def test_an_abandoned_episode_leaves_nothing_but_its_number() -> None:
+def test_an_abandoned_episode_uses_up_its_number_and_changes_nothing_else() -> None:
     learner = learner_of(BENT, SMALL)
     other, plan = learner.plan("game 0"), learner.plan("game 1")
     before = copied(learner.state())
@@ -90,7 +90,7 @@ def test_an_abandoned_episode_leaves_nothing_but_its_number() -> None:
     assert learner.plan("game 1").number == 2
 
 
-def test_a_game_that_begins_anew_has_left_what_it_had_out() -> None:
+def test_planning_a_games_next_episode_abandons_its_unfinished_one() -> None:
     learner = learner_of(BENT, SMALL)
     first, second = learner.plan("game"), learner.plan("game")
     assert not learner.take(play(first))
@@ -101,7 +101,7 @@ MOVES = st.lists(st.tuples(st.integers(0, 2), st.sampled_from(["plan", "take", "
 
 
 @given(MOVES)
-def test_whatever_the_order_every_taken_episode_is_a_row_and_nothing_else_is(moves: list[tuple[int, str]]) -> None:
+def test_every_taken_episode_becomes_exactly_one_row_in_any_order_of_events(moves: list[tuple[int, str]]) -> None:
     learner, out, taken, greedy = learner_of(BENT, PAPER), dict[int, EpisodePlan](), 0, 0
     ends = ((0, move) for move in itertools.cycle(["plan", "take"]))
     for game, move in itertools.chain(moves, ends):
@@ -127,7 +127,7 @@ def test_whatever_the_order_every_taken_episode_is_a_row_and_nothing_else_is(mov
     assert evaluated[-1] == PAPER.episodes
 
 
-def test_the_first_episodes_try_different_actions_and_materials() -> None:
+def test_first_episodes_of_several_games_try_different_actions_and_materials() -> None:
     learner = learner_of(BENT, SMALL)
     plans = [learner.plan(f"game {game}") for game in range(3)]
     assert len({int(play(plan).actions[0]) for plan in plans}) == 3
@@ -135,7 +135,7 @@ def test_the_first_episodes_try_different_actions_and_materials() -> None:
     assert [plan.epsilon for plan in plans] == [0.0, 1.0, 1.0], "beside the first, what an untaught network says"
 
 
-def test_episodes_that_are_out_together_probe_different_cells() -> None:
+def test_simultaneous_episodes_probe_different_cells() -> None:
     learner = with_a_known_game()
     assert learner.imagination is not None
     unknown = {
@@ -148,7 +148,7 @@ def test_episodes_that_are_out_together_probe_different_cells() -> None:
     assert sum(map(len, probed)) == len(set.union(*probed))
 
 
-def test_the_next_game_probes_what_a_dead_game_should_have_probed() -> None:
+def test_the_next_game_probes_cells_of_an_abandoned_episode() -> None:
     learner = with_a_known_game()
     dead = learner.plan("game 0")
     cells = cells_of(play(dead))
@@ -168,14 +168,14 @@ def test_an_evaluation_keeps_the_networks_that_played_it() -> None:
         np.testing.assert_array_equal(learner.policies[role], online)
 
 
-def test_after_the_same_episodes_one_game_evaluates_and_no_other() -> None:
+def test_only_one_game_evaluates_after_the_same_episodes() -> None:
     learner, plan = with_a_known_design()
     assert not learner.plan("game 1").greedy
     learner.abandon(plan.number)
     assert learner.plan("game 0").greedy, "the evaluation that didn't come is still due"
 
 
-def test_a_game_that_hangs_in_an_evaluation_keeps_nobody_from_the_next_which_takes_its_place() -> None:
+def test_a_newer_evaluation_replaces_one_that_hangs_in_another_game() -> None:
     learner, hung = with_a_known_design()
     learner.take(play(learner.plan("game 1")))
     newer = learner.plan("game 1")
@@ -185,7 +185,7 @@ def test_a_game_that_hangs_in_an_evaluation_keeps_nobody_from_the_next_which_tak
     assert [row.episode for row in learner.evaluation_rows][-1] == len(learner.episode_rows)
 
 
-def test_at_the_optimum_it_is_finished_and_what_is_out_is_dropped() -> None:
+def test_a_learner_finished_at_the_optimum_refuses_further_episodes() -> None:
     learner, plan = with_a_known_design(stops=True)
     other = learner.plan("game 1")
     assert learner.take(play(plan))
@@ -197,7 +197,7 @@ def test_at_the_optimum_it_is_finished_and_what_is_out_is_dropped() -> None:
         learner.plan("game 0")
 
 
-def test_after_its_episodes_every_game_evaluates_and_the_first_one_back_ends_it() -> None:
+def test_every_game_evaluates_after_the_last_episode_and_the_first_result_ends_the_run() -> None:
     learner = learner_of(BENT, PAPER)
     late = learner.plan("late")
     while len(learner.episode_rows) < PAPER.episodes:
@@ -211,7 +211,7 @@ def test_after_its_episodes_every_game_evaluates_and_the_first_one_back_ends_it(
 
 
 @pytest.mark.parametrize("agent", ["nested", "hierarchical", "single"])
-def test_without_an_imagination_it_learns_from_each_step_when_the_episode_is_back(agent: str) -> None:
+def test_a_learner_without_imagination_learns_from_each_step_of_a_taken_episode(agent: str) -> None:
     preset = PAPER.model_copy(update={"update": PAPER.update.model_copy(update={"learning_starts": 1})})
     learner, game = learner_of(BENT, preset, agent=agent), game_of(BENT, preset, agent)
     plans = [learner.plan(f"game {game}") for game in range(2)]
@@ -227,7 +227,7 @@ def test_without_an_imagination_it_learns_from_each_step_when_the_episode_is_bac
 
 @pytest.mark.slow
 @pytest.mark.parametrize("agent", ["nested", "single"])
-def test_an_agent_that_sees_the_arena_as_an_image_learns_so_too(agent: str) -> None:
+def test_an_agent_with_image_states_learns_from_each_step_of_a_taken_episode(agent: str) -> None:
     image = load_preset("image")
     preset = image.model_copy(update={"update": image.update.model_copy(update={"learning_starts": 1})})
     learner, play_image = learner_of(BENT, preset, agent=agent), game_of(BENT, preset, agent)
@@ -235,7 +235,7 @@ def test_an_agent_that_sees_the_arena_as_an_image_learns_so_too(agent: str) -> N
     assert learner.agent.low_level.engine.updates.sum() == learner.env_steps > 0
 
 
-def test_the_same_episodes_in_the_same_order_train_the_same() -> None:
+def test_the_same_episodes_in_the_same_order_give_the_same_training() -> None:
     for preset in (SMALL, PAPER):
         one, other = learner_of(BENT, preset), learner_of(BENT, preset)
         for learner in (one, other):
@@ -247,7 +247,7 @@ def test_the_same_episodes_in_the_same_order_train_the_same() -> None:
 
 
 @pytest.mark.parametrize("preset", [SMALL, PAPER], ids=["imagining", "paper"])
-def test_what_is_out_at_a_save_was_never_played_and_the_rest_goes_on(preset: Preset) -> None:
+def test_a_resumed_learner_drops_episodes_that_were_out_and_continues_identically(preset: Preset) -> None:
     learner = learner_of(BENT, preset)
     for _ in range(3):
         learner.take(play(learner.plan("game 0"), preset))
@@ -265,7 +265,7 @@ def test_what_is_out_at_a_save_was_never_played_and_the_rest_goes_on(preset: Pre
     assert resumed.evaluation_rows == learner.evaluation_rows
 
 
-def test_a_policy_that_was_begun_from_is_evaluated_once_and_first() -> None:
+def test_a_policy_to_begin_from_is_evaluated_first_and_once() -> None:
     learner = learner_of(TWO, small_preset(4))
     learner.begin_from(learner.agent.online())
     first, second = learner.plan("game 0"), learner.plan("game 1")
@@ -286,7 +286,7 @@ def test_a_policy_that_was_begun_from_is_evaluated_once_and_first() -> None:
     ],
     ids=["excursions", "parts"],
 )
-def test_what_games_can_not_play_by_themselves_is_refused_in_one_line(
+def test_excursions_and_parts_are_refused_for_several_games_in_one_line(
     scenario: Scenario, preset: str, what: str
 ) -> None:
     with pytest.raises(PresetError, match=what) as caught:
@@ -296,9 +296,7 @@ def test_what_games_can_not_play_by_themselves_is_refused_in_one_line(
 
 @pytest.mark.parametrize("name", ["nested", "hierarchical", "single"])
 @pytest.mark.parametrize("seed", range(5))
-def test_every_step_is_a_transition_of_the_agent_that_acted_and_the_choice_is_one_of_the_main_agent(
-    name: str, seed: int
-) -> None:
+def test_each_step_is_stored_for_the_agent_that_acted_and_the_choice_for_the_main_agent(name: str, seed: int) -> None:
     learner = learner_of(BENT, PAPER, agent=name, seed=seed)
     plan = learner.plan("game")
     played, agent = game_of(BENT, PAPER, name)(plan), learner.agent
@@ -324,7 +322,7 @@ def test_every_step_is_a_transition_of_the_agent_that_acted_and_the_choice_is_on
         assert chosen.discounts.tolist() == [[0.0]]
 
 
-def test_a_single_agents_material_is_what_its_actions_chose() -> None:
+def test_a_single_agents_materials_are_read_from_its_observations() -> None:
     learner = learner_of(BENT, PAPER, agent="single", seed=1)
     played = game_of(BENT, PAPER, "single")(learner.plan("game"))
     materials = materials_of(learner.agent, played, 0)

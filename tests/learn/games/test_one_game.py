@@ -69,7 +69,7 @@ def test_a_learner_with_one_game_trains_as_a_trainer_does(design: Scenario, agen
     assert_same(learner, trainer_of(design, SMALL, agent, seed))
 
 
-def test_it_stops_at_the_optimum_as_a_trainer_does() -> None:
+def test_a_learner_with_one_game_stops_at_the_optimum_as_a_trainer_does() -> None:
     learner = finish(learner_of(BENT, SMALL, stops=True), game_of(BENT, SMALL))
     assert learner.evaluation_rows[-1].score == BENT.optimum
     assert len(learner.episode_rows) < SMALL.episodes
@@ -79,14 +79,14 @@ def test_it_stops_at_the_optimum_as_a_trainer_does() -> None:
 @pytest.mark.slow
 @pytest.mark.parametrize("agent", ["nested", "hierarchical"])
 @pytest.mark.parametrize("design", ["line", "zigzag", "islands"])
-def test_with_the_preset_live_it_trains_on_the_shipped_designs_as_a_trainer_does(design: str, agent: str) -> None:
+def test_a_learner_with_preset_model_based_trains_on_shipped_designs_as_a_trainer_does(design: str, agent: str) -> None:
     scenario, preset = load_scenario(design), load_preset("model-based").model_copy(update={"episodes": 15})
     learner = finish(learner_of(scenario, preset, agent=agent), game_of(scenario, preset, agent))
     assert_same(learner, trainer_of(scenario, preset, agent, 0))
 
 
 @pytest.mark.slow
-def test_it_trains_as_a_trainer_does_beside_a_live_game_whose_practice_has_time_enough() -> None:
+def test_a_learner_trains_as_a_trainer_with_enough_practice_time_beside_a_live_game() -> None:
     scenario, preset = load_scenario("line"), load_preset("model-based").model_copy(update={"episodes": 5})
     learner = finish(learner_of(scenario, preset), game_of(scenario, preset))
     beside = trainer_of(scenario, preset, "nested", 0, game=Slow(scenario), background=Rounds(ENOUGH))

@@ -26,7 +26,7 @@ RESET_S, STEP_S = 6.0, 0.34
 
 
 def seconds_to_optimum(scenario: Scenario, games: int) -> float:
-    """Train with so many games until the optimum; return the slowest game's seconds."""
+    """Train with that many games until the optimum; return the clock of the game that reached it."""
     spec = AGENT_SPECS["nested"]
     learner = GamesTrainer(scenario, Agent(spec, [scenario], PRESET, 0), PRESET, 0, stop_at_optimum=True)
     player = Agent(spec, [scenario], PRESET, 0)

@@ -49,7 +49,7 @@ def with_update(preset: Preset, **changes: float) -> Preset:
 
 
 class Plain:
-    """What a game is that can't be saved half-way and notes nothing."""
+    """A game that can't be saved half-way and notes nothing."""
 
     @property
     def resumable(self) -> Resumable | None:
@@ -61,7 +61,7 @@ class Plain:
 
 
 class MadeUpGame(Plain):
-    """A game with rules of its own: where each action leads, which place a block, and where that lands."""
+    """A game with its own rules: where each action leads, which place a block, and where that lands."""
 
     def __init__(self, moves: Sequence[Cell], places: Sequence[bool], lands: Cell, scenario: Scenario) -> None:
         self._moves, self._places, self._lands = moves, places, lands
@@ -98,7 +98,7 @@ def play(game: Game, scenario: Scenario, actions: Sequence[int], seen: Experienc
 def play_by(
     game: Game, scenario: Scenario, choose: Callable[[int], int], steps: int, seen: Experience, material: int = 0
 ) -> int:
-    """Play one episode of at most so many steps, whose actions are chosen by the step's number."""
+    """Play one episode of at most that many steps; ``choose`` gives the action of each step."""
     seen.begin()
     x, y = game.reset(material)
     left, score = scenario.blocks, scenario.materials[material].p
@@ -138,7 +138,7 @@ def seen_at_random(game: Game, scenario: Scenario, episodes: int, seed: int = 0)
 
 
 def assert_rules(rules: LearntRules, moves: Sequence[Cell], places: Sequence[bool], lands: Cell) -> None:
-    """Raise AssertionError if what was learnt isn't this."""
+    """Raise AssertionError unless the learnt rules are these."""
     assert list(map(tuple, rules.moves.tolist())) == list(moves)
     assert rules.known.all()
     assert rules.places.tolist() == list(places)

@@ -17,7 +17,7 @@ MATERIAL = np.array([1])
 
 
 def arena_of(scenario: Scenario = BENT) -> ImaginedArena:
-    """Return the true game of a design, as one that was learnt to the end."""
+    """Return the true game of a design, as if it had been learnt completely."""
     pay = np.zeros((scenario.size, scenario.size), np.float32)
     for cell in scenario.design:
         pay[cell] = 1.0

@@ -1,4 +1,4 @@
-"""The learnt game's step: edges, blocks, and where a block lands, as in the real rules; what an episode should do."""
+"""The learnt game's step: edges, blocks and landings as in the real rules; and the landings expected of an episode."""
 
 import numpy as np
 import pytest
@@ -40,7 +40,7 @@ def taught_arena(
 
 
 @given(st.integers(0, 4), st.integers(0, 4), st.integers(1, 4))
-def test_an_index_names_a_cell_inside_the_border(x: int, y: int, longest: int) -> None:
+def test_every_cell_has_an_index_inside_the_border(x: int, y: int, longest: int) -> None:
     arena = taught_arena([(longest, 0), (0, -longest)], [False, True])
     assert arena.border == longest
     assert arena.side == SIZE + 2 * longest
@@ -51,13 +51,13 @@ def test_an_index_names_a_cell_inside_the_border(x: int, y: int, longest: int) -
     assert arena.pay[NOWHERE] == 0.0
 
 
-def test_the_paying_cell_is_where_the_beliefs_have_it() -> None:
+def test_the_imagined_arena_pays_in_the_cell_that_the_beliefs_name() -> None:
     arena = taught_arena(paying=(4, 1))
     assert arena.pay[index_of((4, 1), arena)] == 1.0
     assert arena.pay.sum() == 1.0
 
 
-def test_nothing_learnt_yet_is_an_arena_where_nobody_moves() -> None:
+def test_rules_without_moves_keep_the_agent_in_place_and_place_blocks() -> None:
     arena = taught_arena([(0, 0)] * 8, [True] * 8, (-1, -1))
     solid = arena.empty.copy()
     at = index_of((2, 2), arena)
@@ -85,7 +85,7 @@ def test_a_long_move_that_would_end_outside_is_stopped() -> None:
         assert cell_at(step(arena, index_of(start, arena), action, solid)[0], arena) == end
 
 
-def test_a_block_is_in_the_way_of_steps_and_of_blocks() -> None:
+def test_a_placed_block_stops_steps_and_further_blocks() -> None:
     arena = taught_arena()
     solid = arena.empty.copy()
     start = index_of((2, 1), arena)
@@ -102,7 +102,7 @@ def test_a_block_can_land_to_the_side() -> None:
 
 
 @given(st.lists(st.sampled_from(Action), max_size=60))
-def test_with_the_true_rules_any_actions_do_what_the_rules_say(actions: list[Action]) -> None:
+def test_the_imagined_arena_with_the_true_rules_steps_as_the_rules_do(actions: list[Action]) -> None:
     arena = taught_arena()
     solid, cell, placed = arena.empty.copy(), (2, 1), set[Cell]()
     position = index_of(cell, arena)
@@ -124,7 +124,7 @@ def tries_of(untried: int | None = None) -> FirstTries:
 
 
 @given(st.lists(st.sampled_from(list(Action)), min_size=BENT.step_limit, max_size=BENT.step_limit))
-def test_it_lands_its_blocks_where_the_real_game_does(actions: list[Action]) -> None:
+def test_expected_landings_are_those_of_the_real_game(actions: list[Action]) -> None:
     cell, placed = BENT.start, list[Cell]()
     for action in actions:
         cell = moved(cell, action, set(placed), BENT.size)
@@ -137,7 +137,7 @@ def test_it_lands_its_blocks_where_the_real_game_does(actions: list[Action]) -> 
     assert found == placed
 
 
-def test_the_policy_sees_where_it_is_and_what_is_left() -> None:
+def test_expected_landings_show_the_policy_its_cell_and_the_blocks_left() -> None:
     seen: list[State] = []
 
     def policy(state: State) -> int:
@@ -153,20 +153,20 @@ def test_first_tries_come_before_the_policy() -> None:
     assert found == [(3, 2)]
 
 
-def test_a_state_is_its_cell_its_blocks_and_what_is_appended() -> None:
+def test_a_states_index_is_made_of_its_cell_its_blocks_and_the_tasks_offset() -> None:
     arena = arena_of()
     task = ImaginedTask(index_of(BENT.start, arena), 3, 14, 3.0, np.array([20, 4, 1]), 1000)
     assert state_at(index_of((3, 2), arena), 2, arena, task) == 3 * 20 + 2 * 4 + 2 + 1000
 
 
-def test_only_a_block_where_nothing_is_paid_is_wasted() -> None:
+def test_only_a_block_in_an_unpaid_cell_is_wasted() -> None:
     arena = arena_of()
     assert is_wasted(index_of((0, 1), arena), arena)
     assert not is_wasted(index_of((2, 3), arena), arena)
     assert not is_wasted(NOWHERE, arena)
 
 
-def test_epsilons_are_equally_likely_on_a_logarithmic_scale() -> None:
+def test_epsilon_is_drawn_on_a_logarithmic_scale() -> None:
     assert epsilon_from(0.0, 1.0, 0.01) == pytest.approx(0.01)
     assert epsilon_from(0.5, 1.0, 0.01) == pytest.approx(0.1)
     assert epsilon_from(0.25, 0.3, 0.3) == pytest.approx(0.3)

@@ -28,7 +28,7 @@ def session_of(
     by: int = 1,
     best: Float32s | None = None,
 ) -> PracticeSession:
-    """Add 1 to the online network in each update, which makes it play better, unless it is known which is best."""
+    """Return a session whose updates add ``by`` to the online network, the best so far unless ``best`` is given."""
 
     def practise(numbers: Float64s, parts: Row, progress: Progress) -> None:
         parts.online[:] += by * len(numbers)
@@ -42,13 +42,13 @@ def session_of(
 
 
 def worsening_session(own: Row, after: Callable[[], None]) -> tuple[PracticeSession, Float32s]:
-    """Take 1 from the online network in each update, which makes it play worse than the second value, the best."""
+    """Return a session whose updates take 1 from the online network and so worsen it, and the best network."""
     best = np.array([1.0, 1.0], np.float32)
     return session_of(own, after=after, by=-1, best=best), best
 
 
 class Steps:
-    """A background whose work is done at its end, so many times as it may go on."""
+    """A background whose work is done at its end, in that many rounds."""
 
     def __init__(self, times: int) -> None:
         self.times = times
@@ -71,7 +71,7 @@ def threads() -> list[str]:
     return [thread.name for thread in threading.enumerate() if thread.name == "practice"]
 
 
-def test_a_thread_works_until_the_time_is_up() -> None:
+def test_a_background_thread_works_until_its_time_is_up() -> None:
     now = [0.0]
     background = BackgroundThread(lambda: now[0])
     asked = 0
@@ -90,7 +90,7 @@ def test_a_thread_works_until_the_time_is_up() -> None:
     assert not threads()
 
 
-def test_without_a_second_longer_it_ends_when_it_asks_next() -> None:
+def test_ending_a_background_thread_without_more_time_stops_its_work() -> None:
     background = BackgroundThread()
     asked = threading.Event()
 
@@ -104,7 +104,7 @@ def test_without_a_second_longer_it_ends_when_it_asks_next() -> None:
     assert not threads()
 
 
-def test_what_the_work_raised_passes_through_its_end_and_only_that() -> None:
+def test_ending_a_background_thread_raises_the_error_of_its_work_once() -> None:
     background = BackgroundThread()
 
     def fails(_: GoesOn) -> None:
@@ -129,7 +129,7 @@ def test_practice_runs_while_the_game_resets() -> None:
     assert own.online.tolist() == [3, 3]
 
 
-def test_after_the_reset_it_runs_for_a_second_at_most() -> None:
+def test_practice_runs_for_a_second_at_most_after_the_reset() -> None:
     background = Steps(2)
     own = row()
     BackgroundPractice(background).during_reset({0: session_of(own)}, lambda: None)
@@ -137,7 +137,7 @@ def test_after_the_reset_it_runs_for_a_second_at_most() -> None:
     assert own.updates[0] == 2
 
 
-def test_a_reset_that_fails_ends_practice_at_once_and_passes_through() -> None:
+def test_a_failed_reset_ends_practice_at_once_and_raises_its_error() -> None:
     own, practised = row(), threading.Event()
     beside = BackgroundPractice(BackgroundThread())
 
@@ -154,7 +154,7 @@ def test_a_reset_that_fails_ends_practice_at_once_and_passes_through() -> None:
     assert own.online[0] == own.updates[0] >= 1, "what was practised stays"
 
 
-def test_a_reset_that_fails_leaves_the_best_networks_so_far() -> None:
+def test_a_failed_reset_leaves_the_best_networks_so_far() -> None:
     own, practised = row(), threading.Event()
     session, best = worsening_session(own, practised.set)
 
@@ -167,7 +167,7 @@ def test_a_reset_that_fails_leaves_the_best_networks_so_far() -> None:
     assert own.online.tolist() == own.target.tolist() == best.tolist()
 
 
-def test_within_an_episode_the_policy_stays_and_what_was_practised_meanwhile_is_taken_over_afterwards() -> None:
+def test_networks_practised_during_an_episode_are_taken_over_only_at_its_end() -> None:
     now = [0.0]
 
     def passes() -> None:
@@ -188,7 +188,7 @@ def test_within_an_episode_the_policy_stays_and_what_was_practised_meanwhile_is_
     assert own.online[0] == own.updates[0]
 
 
-def test_an_episode_is_played_by_the_best_policy_so_far_while_another_goes_on() -> None:
+def test_the_best_policy_plays_an_episode_while_practice_continues_from_the_last_one() -> None:
     own, practised = row(), threading.Event()
     session, ends = worsening_session(own, practised.set)
     beside = BackgroundPractice(BackgroundThread())
@@ -203,7 +203,7 @@ def test_an_episode_is_played_by_the_best_policy_so_far_while_another_goes_on() 
     assert own.online.tolist() == own.target.tolist() == ends.tolist()
 
 
-def test_what_is_over_is_neither_gone_on_with_nor_taken_over() -> None:
+def test_a_finished_practice_neither_continues_nor_changes_the_networks() -> None:
     own, background = row(), Steps(9)
     beside = BackgroundPractice(background)
     beside.during_reset({0: session_of(own, 3)}, lambda: None)
@@ -214,7 +214,7 @@ def test_what_is_over_is_neither_gone_on_with_nor_taken_over() -> None:
     assert len(background.longer_s) == 1
 
 
-def test_every_session_of_a_game_is_run() -> None:
+def test_the_practice_sessions_of_all_runs_are_run() -> None:
     rows = {0: row(), 3: row()}
     BackgroundPractice(Steps(10)).during_reset({run: session_of(own, 2) for run, own in rows.items()}, lambda: None)
     assert [int(own.updates[0]) for own in rows.values()] == [2, 2]

@@ -1,4 +1,4 @@
-"""What is thought of each cell, by hand on a small arena, and how optimism makes an agent try what is unknown."""
+"""Beliefs about each cell, by hand on a small arena, and how optimism makes an agent try unknown cells."""
 
 import numpy as np
 import pytest
@@ -25,7 +25,7 @@ def of(*tried: tuple[Cell, bool], blocks: int = 3) -> Beliefs:
     return believe(tries(*tried), AHEAD, SIZE, blocks)
 
 
-def test_nothing_is_known_at_first_and_every_cell_that_a_block_can_reach_may_pay() -> None:
+def test_at_first_every_cell_is_unknown_and_every_reachable_cell_may_pay() -> None:
     found = of(blocks=2)
     assert (found.cells == UNKNOWN).all()
     # Nobody stands in front of the row y = 0: no block lands there.
@@ -50,7 +50,7 @@ def test_the_eight_cells_around_a_paying_one_are_believed_to_pay() -> None:
     assert found.most == 3.0, "three believed cells: more than with the known one"
 
 
-def test_what_no_block_can_reach_is_not_believed() -> None:
+def test_cells_that_no_block_can_reach_are_not_believed_to_pay() -> None:
     found = of(((2, 1), True))
     assert found.cells[:, 0].tolist() == [UNKNOWN] * SIZE
     assert found.pay[:, 0].tolist() == [0.0] * SIZE
@@ -65,7 +65,7 @@ def test_what_no_block_can_reach_is_not_believed() -> None:
         ((-1, -1), {(x, y) for x in range(SIZE) for y in range(SIZE) if 4 in (x, y)}),
     ],
 )
-def test_which_cells_are_in_reach_follows_from_where_blocks_land(lands: Cell, unreached: set[Cell]) -> None:
+def test_the_cells_in_reach_depend_on_where_blocks_land(lands: Cell, unreached: set[Cell]) -> None:
     pay = believe(tries(), lands, SIZE, 3).pay
     assert {(int(x), int(y)) for x, y in np.argwhere(pay == 0.0)} == unreached
 
@@ -76,7 +76,7 @@ def test_a_cell_that_paid_nothing_is_worth_nothing() -> None:
     assert found.pay[2, 4] == 0.0
 
 
-def test_without_an_untried_cell_beside_a_paying_one_every_unknown_cell_may_pay() -> None:
+def test_every_unknown_cell_may_pay_once_all_cells_beside_a_paying_one_were_tried() -> None:
     # The only cells beside (0, 1) in reach are (0, 2), (1, 1) and (1, 2): none of them paid.
     found = of(((0, 1), True), ((0, 2), False), ((1, 1), False), ((1, 2), False))
     assert not (found.cells == BELIEVED).any()
@@ -84,7 +84,7 @@ def test_without_an_untried_cell_beside_a_paying_one_every_unknown_cell_may_pay(
     assert found.pay[0, 1] == np.float32(KNOWN_TO_PAY)
 
 
-def test_once_as_many_paying_cells_are_known_as_there_are_blocks_those_alone_are_built() -> None:
+def test_only_known_paying_cells_pay_once_there_are_as_many_as_blocks() -> None:
     found = of(((1, 3), True), ((4, 4), False), ((2, 3), True), blocks=2)
     assert not found.explores
     assert np.argwhere(found.pay > 0).tolist() == [[1, 3], [2, 3]]
@@ -104,25 +104,25 @@ def test_one_odd_outcome_is_outvoted_and_two_in_a_row_are_believed(usual: bool, 
     assert of(*said, (cell, not usual), (cell, not usual)).cells[cell] == belief[not usual]
 
 
-def test_of_two_outcomes_the_later_counts() -> None:
+def test_the_later_of_two_outcomes_counts() -> None:
     assert of(((2, 2), True), ((2, 2), False)).cells[2, 2] == PAYS_NOT
     assert of(((2, 2), False), ((2, 2), True)).cells[2, 2] == PAYS
 
 
-def test_a_step_that_used_no_block_says_nothing() -> None:
+def test_a_step_that_used_no_block_changes_no_belief() -> None:
     steps = tries(((2, 2), False))
     steps[:, 6] = steps[:, 2]
     assert (believe(steps, AHEAD, SIZE, 3).cells == UNKNOWN).all()
 
 
-def test_a_block_that_would_lie_outside_says_nothing() -> None:
+def test_a_block_outside_the_arena_changes_no_belief() -> None:
     assert (believe(tries(((2, 3), True)), (0, 3), SIZE, 3).cells == UNKNOWN).all()
 
 
 @given(
     st.lists(st.tuples(st.tuples(st.integers(0, 4), st.integers(1, 4)), st.booleans()), max_size=40), st.integers(1, 8)
 )
-def test_every_belief_has_its_pay(tried: list[tuple[Cell, bool]], blocks: int) -> None:
+def test_pay_agrees_with_the_belief_about_every_cell(tried: list[tuple[Cell, bool]], blocks: int) -> None:
     found = of(*tried, blocks=blocks)
     pays, unknown = found.cells == PAYS, np.isin(found.cells, [UNKNOWN, BELIEVED])
     assert set(map(tuple, np.argwhere(~unknown).tolist())) == {cell for cell, _ in tried}
@@ -134,7 +134,7 @@ def test_every_belief_has_its_pay(tried: list[tuple[Cell, bool]], blocks: int) -
     assert found.most == sum(best), "what an imagined episode can earn, to the last bit"
 
 
-def test_what_is_probed_elsewhere_stays_unknown_and_is_taken_to_pay_nothing() -> None:
+def test_cells_probed_by_other_games_stay_unknown_and_are_taken_to_pay_nothing() -> None:
     beside = [(1, 2), (2, 2), (3, 2)]
     found = believe(tries(((2, 3), True)), AHEAD, SIZE, 3, elsewhere=beside)
     assert all(found.cells[cell] == UNKNOWN and found.pay[cell] == 0.0 for cell in beside)
@@ -143,20 +143,20 @@ def test_what_is_probed_elsewhere_stays_unknown_and_is_taken_to_pay_nothing() ->
     assert found.explores
 
 
-def test_where_all_that_is_beside_a_paying_cell_is_probed_elsewhere_every_other_unknown_cell_may_pay() -> None:
+def test_unknown_cells_may_pay_while_other_games_probe_all_cells_beside_a_paying_one() -> None:
     around = [(x, y) for x in (1, 2, 3) for y in (2, 3, 4) if (x, y) != (2, 3)]
     found = believe(tries(((2, 3), True)), AHEAD, SIZE, 3, elsewhere=around)
     assert (found.cells != BELIEVED).all()
     assert found.pay[4, 4] == 1.0
 
 
-def test_what_was_tried_is_known_whoever_probes_it_still() -> None:
+def test_tried_cells_stay_known_while_other_games_probe_them() -> None:
     tried = tries(((2, 3), True), ((1, 1), False))
     found = believe(tried, AHEAD, SIZE, 3, elsewhere=[(2, 3), (1, 1)])
     np.testing.assert_array_equal(found.pay, of(((2, 3), True), ((1, 1), False)).pay)
 
 
-def test_if_nothing_unknown_is_left_that_nobody_probes_it_is_probed_once_more() -> None:
+def test_unknown_cells_are_probed_again_when_other_games_probe_all_of_them() -> None:
     every = [(x, y) for x in range(SIZE) for y in range(1, SIZE)]
     found = believe(tries(((2, 3), True)), AHEAD, SIZE, 3, elsewhere=every)
     np.testing.assert_array_equal(found.pay, of(((2, 3), True)).pay)

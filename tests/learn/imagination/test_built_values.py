@@ -1,4 +1,4 @@
-"""Values by the cell and the cells built: every name has a row of its own, which begins at 0 and stays."""
+"""Values by the cell and the cells built: every name has its own row, which begins at 0 and stays."""
 
 import numpy as np
 from hypothesis import given
@@ -25,7 +25,7 @@ def begun(seed: int = 0) -> BuiltValues:
 
 
 @given(NAMES)
-def test_every_name_has_a_row_of_its_own_and_finds_it_again(names: list[int]) -> None:
+def test_every_name_keeps_a_separate_row(names: list[int]) -> None:
     table = begun()
     rows = [row_of(table, name) for name in names]
     assert len(set(rows)) == len(names) == table.held[0]
@@ -33,12 +33,12 @@ def test_every_name_has_a_row_of_its_own_and_finds_it_again(names: list[int]) ->
     assert [int(table.names[row]) for row in rows] == names
 
 
-def test_names_that_want_the_same_row_follow_one_another_round_the_end() -> None:
+def test_colliding_names_take_the_next_rows_and_wrap_around_the_end() -> None:
     table = begun()
     assert [row_of(table, name) for name in (15, 31, 47)] == [15, 0, 1]
 
 
-def test_a_new_row_has_no_values_of_one_forgotten() -> None:
+def test_a_row_taken_after_forgetting_has_values_of_0() -> None:
     table = begun()
     table.values[row_of(table, 5)] = 7.0
     assert table.values[row_of(table, 5)].tolist() == [7.0] * ACTIONS
@@ -47,7 +47,7 @@ def test_a_new_row_has_no_values_of_one_forgotten() -> None:
     assert table.values[row_of(table, 5)].tolist() == [0.0] * ACTIONS
 
 
-def test_it_is_full_before_every_row_is_in_use() -> None:
+def test_the_table_counts_as_full_before_every_row_is_in_use() -> None:
     table = begun()
     for name in range(1, int(FULL * ROOM) + 1):
         assert not is_full(table)
@@ -57,7 +57,7 @@ def test_it_is_full_before_every_row_is_in_use() -> None:
     assert is_full(table)
 
 
-def test_the_random_bits_are_drawn_and_the_same_cells_make_the_same_name_in_any_order() -> None:
+def test_random_bits_follow_the_seed_and_built_cells_make_one_name_in_any_order() -> None:
     one, same, other = begun(), begun(), begun(1)
     for bits in (one.here, one.built):
         assert len(np.unique(bits)) == CELLS

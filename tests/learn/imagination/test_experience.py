@@ -1,4 +1,4 @@
-"""What a run remembers of its game: transitions by episode, what materials brought, and no more than is recent."""
+"""A run's memory of its game: transitions by episode, scores that materials brought, and recent episodes alone."""
 
 import numpy as np
 import pytest
@@ -21,7 +21,7 @@ def test_a_new_experience_is_empty() -> None:
     assert seen.extras.shape == (0, 2)
 
 
-def test_episodes_follow_one_another() -> None:
+def test_steps_of_episodes_are_stored_one_after_the_other() -> None:
     seen = Experience()
     for steps in (2, 1, 3):
         episode_of(seen, steps)
@@ -31,14 +31,14 @@ def test_episodes_follow_one_another() -> None:
     assert seen.episodes == 3
 
 
-def test_a_material_brings_what_the_score_is_beyond_the_blocks_of_its_own_episode() -> None:
+def test_a_materials_extra_is_the_score_beyond_the_blocks_paid_in_its_episode() -> None:
     seen = Experience()
     episode_of(seen, 2, material=1, score=12.0)  # two blocks that paid, and p = 10
     episode_of(seen, 3, material=0, score=-2.0)  # three, and p = -5
     assert seen.extras.tolist() == [[1.0, 10.0], [0.0, -5.0]]
 
 
-def test_what_happened_longer_ago_is_forgotten() -> None:
+def test_old_episodes_are_forgotten() -> None:
     seen = Experience()
     for episode in range(RECENT + 7):
         episode_of(seen, 1 + episode % 3, score=float(episode))
@@ -51,7 +51,7 @@ def test_what_happened_longer_ago_is_forgotten() -> None:
 
 
 @pytest.mark.parametrize("steps", [0, 2])
-def test_a_saved_experience_goes_on_as_it_was(steps: int) -> None:
+def test_a_loaded_experience_continues_as_the_saved_one(steps: int) -> None:
     seen, again = Experience(), Experience()
     episode_of(seen, 3, score=4.0)
     seen.begin()
@@ -68,7 +68,7 @@ def test_a_saved_experience_goes_on_as_it_was(steps: int) -> None:
         np.testing.assert_array_equal(again.state()[name], kept, err_msg=name)
 
 
-def test_a_saved_experience_is_no_view_of_the_one_that_goes_on() -> None:
+def test_a_saved_experience_is_a_copy() -> None:
     seen = Experience()
     episode_of(seen, 2)
     kept = seen.state()
@@ -76,7 +76,7 @@ def test_a_saved_experience_is_no_view_of_the_one_that_goes_on() -> None:
     assert (len(kept["steps"]), int(kept["episodes"])) == (2, 1)
 
 
-def test_a_table_of_another_width_is_refused() -> None:
+def test_an_experience_with_wrong_or_missing_arrays_is_refused() -> None:
     with pytest.raises((TypeError, ValueError)):
         Experience().load({**Experience().state(), "steps": np.zeros((2, 5), np.int64)})
     with pytest.raises(KeyError):

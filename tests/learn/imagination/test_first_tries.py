@@ -1,4 +1,4 @@
-"""First tries by themselves: what is left to other games, and that a copy goes its own way."""
+"""First tries: which are left to other games, and that a copy is independent."""
 
 import numpy as np
 from hypothesis import given
@@ -15,7 +15,7 @@ def tries_of(untried: set[int]) -> FirstTries:
 
 
 def first_actions(tries: FirstTries, steps: int) -> list[int]:
-    """Return what is done in so many steps, each of which moves, where the policy's action is 0."""
+    """Return the actions of that many steps, each of which moves; the policy's own action is 0."""
     done = []
     for _ in range(steps):
         action = tries.act(0, [])
@@ -24,7 +24,7 @@ def first_actions(tries: FirstTries, steps: int) -> list[int]:
     return done
 
 
-def test_each_game_begins_with_actions_of_its_own_and_goes_on_with_the_others() -> None:
+def test_each_game_tries_different_actions_first_and_then_the_others() -> None:
     assert CLAIMED == 2
     every = [first_actions(tries_of(set(range(ACTIONS))).beside(games), ACTIONS) for games in range(4)]
     assert [actions[:CLAIMED] for actions in every] == [[0, 1], [2, 3], [4, 5], [6, 7]]
@@ -32,9 +32,7 @@ def test_each_game_begins_with_actions_of_its_own_and_goes_on_with_the_others() 
 
 
 @given(st.sets(st.integers(0, ACTIONS - 1)), st.integers(0, 9))
-def test_what_is_left_to_other_games_changes_nothing_here_and_only_what_is_untried(
-    untried: set[int], games: int
-) -> None:
+def test_leaving_tries_to_other_games_changes_only_untried_actions_of_a_copy(untried: set[int], games: int) -> None:
     tries = tries_of(untried)
     beside = tries.beside(games)
     assert tries.tries.tolist() == [0] * ACTIONS
@@ -45,7 +43,7 @@ def test_what_is_left_to_other_games_changes_nothing_here_and_only_what_is_untri
     assert tries.untried.tolist() == [action in untried for action in range(ACTIONS)]
 
 
-def test_an_action_that_was_done_here_is_tried_elsewhere() -> None:
+def test_first_tries_skip_actions_already_done_in_the_same_cell() -> None:
     tries = tries_of({3, 4})
     assert tries.act(0, []) == 3
     assert tries.act(0, [3]) == 4

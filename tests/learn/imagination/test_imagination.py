@@ -1,4 +1,4 @@
-"""What runs have seen, learn of it and practise: each run, and each material of a hierarchy, its own."""
+"""Each run learns and practises from its own steps, and each material's agent of a hierarchy from its own."""
 
 import dataclasses
 from collections.abc import Sequence
@@ -56,7 +56,7 @@ def at_random(imagination: Imagination, episodes: int, run: int = 0, runs: int =
         play(imagination, random.integers(0, 8, BENT.step_limit).tolist(), run, runs, episode % 2)
 
 
-def test_a_run_learns_the_rules_and_the_design_from_what_it_saw_alone() -> None:
+def test_a_run_learns_the_rules_and_the_design_from_its_own_steps_alone() -> None:
     _, imagination = imagination_of(2)
     at_random(imagination, 30, run=1, runs=2)
     assert_rules(imagination.rules(1), TRUE_MOVES, TRUE_PLACES, (0, 1))
@@ -67,14 +67,14 @@ def test_a_run_learns_the_rules_and_the_design_from_what_it_saw_alone() -> None:
     assert paying <= BENT.design
 
 
-def test_before_the_first_step_nothing_is_practised() -> None:
+def test_nothing_is_practised_before_the_first_step() -> None:
     agent, imagination = imagination_of()
     before = agent.low_level.engine.online.copy()
     assert not imagination.practise(0, 1)
     np.testing.assert_array_equal(agent.low_level.engine.online, before)
 
 
-def test_practice_of_a_known_design_ends_with_a_policy_that_builds_it() -> None:
+def test_practice_of_a_known_design_ends_with_a_policy_that_reaches_the_optimum() -> None:
     agent, imagination = imagination_of()
     at_random(imagination, 10)
     play(imagination, [Action.FD, Action.RD, Action.F, Action.L, Action.B, Action.FD, Action.FD])
@@ -92,14 +92,14 @@ def test_practice_of_a_known_design_ends_with_a_policy_that_builds_it() -> None:
     assert score == BENT.optimum
 
 
-def test_while_the_design_is_unknown_no_policy_is_said_to_build_it() -> None:
+def test_practice_does_not_claim_to_build_an_unknown_design() -> None:
     _, imagination = imagination_of()
     play(imagination, BUILT)
     assert imagination.beliefs(0).explores
     assert not imagination.practise(0, 1)
 
 
-def test_practice_can_be_ended_from_outside() -> None:
+def test_practice_ended_from_outside_at_once_changes_no_networks() -> None:
     agent, imagination = imagination_of()
     play(imagination, BUILT)
     before = agent.low_level.engine.online.copy()
@@ -110,7 +110,7 @@ def test_practice_can_be_ended_from_outside() -> None:
 
 
 @pytest.mark.parametrize(("spec", "changed"), [(NESTED, [1]), (HIERARCHICAL, [2])], ids=["nested", "hierarchical"])
-def test_only_the_runs_agent_of_that_material_practises(spec: AgentSpec, changed: list[int]) -> None:
+def test_practice_changes_only_the_agent_of_the_named_run_and_material(spec: AgentSpec, changed: list[int]) -> None:
     agent, imagination = imagination_of(2, spec)
     at_random(imagination, 3, run=1, runs=2)
     before = agent.low_level.engine.online.copy()
@@ -119,7 +119,7 @@ def test_only_the_runs_agent_of_that_material_practises(spec: AgentSpec, changed
     assert np.flatnonzero(differs).tolist() == changed
 
 
-def test_an_agent_of_a_hierarchy_practises_with_the_transitions_of_its_own_material() -> None:
+def test_a_hierarchical_agent_practises_with_its_own_materials_transitions_alone() -> None:
     for spec, held in ((HIERARCHICAL, [2, 3]), (NESTED, [5, 5])):
         _, imagination = imagination_of(spec=spec)
         play(imagination, [Action.F, Action.B], material=0)
@@ -139,7 +139,7 @@ def test_the_same_run_practises_the_same_beside_others_and_alone() -> None:
     np.testing.assert_array_equal(beside.low_level.engine.online[2], alone.low_level.engine.online[0])
 
 
-def test_the_main_agent_chooses_what_was_never_tried_and_then_the_best() -> None:
+def test_the_main_agent_chooses_untried_materials_first_and_then_the_best() -> None:
     agent, imagination = imagination_of()
     assert agent.main is not None
 
@@ -155,7 +155,7 @@ def test_the_main_agent_chooses_what_was_never_tried_and_then_the_best() -> None
     assert chosen() == 1
 
 
-def test_the_first_steps_try_actions_of_which_it_is_not_known_where_they_lead() -> None:
+def test_first_steps_try_actions_whose_moves_are_unknown() -> None:
     _, imagination = imagination_of()
     rows, wanted = np.array([0]), np.array([int(Action.F)])
     assert imagination.act(rows, wanted).tolist() == [0], "the first that was never tried"
@@ -165,7 +165,7 @@ def test_the_first_steps_try_actions_of_which_it_is_not_known_where_they_lead() 
     assert imagination.act(rows, wanted).tolist() == [int(Action.L)]
 
 
-def test_an_action_that_never_moved_is_tried_again_but_seldom() -> None:
+def test_an_action_that_never_moved_is_tried_again_rarely() -> None:
     _, imagination = imagination_of()
     rows, wanted = np.array([0]), np.array([int(Action.F)])
     play(imagination, [*range(7), *[Action.F, Action.B] * 3])
@@ -180,13 +180,13 @@ def test_an_action_that_never_moved_is_tried_again_but_seldom() -> None:
     assert set(tried) == {int(Action.F), int(Action.BD)}
 
 
-def test_once_the_design_is_known_nothing_is_tried_any_more() -> None:
+def test_no_first_tries_are_made_once_the_design_is_known() -> None:
     _, imagination = imagination_of()
     imagination._explores[:] = False
     assert imagination.act(np.array([0]), np.array([5])).tolist() == [5]
 
 
-def test_only_the_named_runs_act() -> None:
+def test_act_returns_actions_of_the_named_runs_alone() -> None:
     _, imagination = imagination_of(3)
     imagination._explores[:] = [False, True, False]
     assert imagination.act(np.array([0, 2]), np.array([5, 6, 7])).tolist() == [5, 7]
@@ -194,7 +194,7 @@ def test_only_the_named_runs_act() -> None:
 
 
 @pytest.mark.parametrize("spec", [NESTED, HIERARCHICAL], ids=["nested", "hierarchical"])
-def test_what_was_saved_in_mid_episode_goes_on_to_the_bit(spec: AgentSpec) -> None:
+def test_an_imagination_saved_in_mid_episode_continues_to_the_bit(spec: AgentSpec) -> None:
     agent, imagination = imagination_of(2, spec)
     at_random(imagination, 3, run=1, runs=2)
     imagination.begin(np.array([0]))
@@ -213,7 +213,7 @@ def test_what_was_saved_in_mid_episode_goes_on_to_the_bit(spec: AgentSpec) -> No
         np.testing.assert_array_equal({**resumed.state(), **resumed_agent.state()}[name], kept, err_msg=name)
 
 
-def test_arenas_of_other_sizes_are_learnt_side_by_side() -> None:
+def test_arenas_of_different_sizes_are_learnt_side_by_side() -> None:
     large = BENT.__class__("large", TWO.design, TWO.start, TWO.step_limit, TWO.materials, size=7)
     agent = Agent(NESTED, [BENT, large], SMALL, 0)
     made = learnt_games_of(agent, [BENT, large], SMALL, 0)
@@ -222,7 +222,7 @@ def test_arenas_of_other_sizes_are_learnt_side_by_side() -> None:
     assert [made.beliefs(run).most for run in (0, 1)] == [3.0, 2.0]
 
 
-def test_an_action_that_was_stopped_in_a_cell_is_tried_in_others_of_the_episode() -> None:
+def test_an_action_stopped_in_one_cell_is_tried_again_in_another_cell() -> None:
     for actions, chosen in (([Action.B, Action.B], Action.R), ([Action.B, Action.B, Action.R], Action.B)):
         _, imagination = imagination_of()
         play(imagination, actions)  # to (2, 0), at the edge, where B is stopped; then on to (3, 0)
@@ -231,7 +231,7 @@ def test_an_action_that_was_stopped_in_a_cell_is_tried_in_others_of_the_episode(
 
 
 @pytest.mark.parametrize("falls_short", [False, True])
-def test_with_a_known_design_an_untried_action_is_tried_where_practice_fell_short(falls_short: bool) -> None:
+def test_an_untried_action_is_tried_on_a_known_design_only_if_practice_fell_short(falls_short: bool) -> None:
     _, imagination = imagination_of()
     play(imagination, [Action.FD, Action.R, Action.FD, Action.F])
     session = imagination.session(0, 1)
@@ -246,7 +246,7 @@ def test_with_a_known_design_an_untried_action_is_tried_where_practice_fell_shor
     ("explored", "fell_short", "explores", "anew"),
     [(False, True, False, True), (True, True, False, False), (False, False, False, False), (False, True, True, False)],
 )
-def test_the_networks_begin_anew_where_they_fell_short_of_the_same_known_design(
+def test_networks_begin_anew_only_after_falling_short_of_the_same_known_design(
     explored: bool, fell_short: bool, explores: bool, anew: bool, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     _, imagination = imagination_of()
@@ -257,7 +257,7 @@ def test_the_networks_begin_anew_where_they_fell_short_of_the_same_known_design(
     assert imagination.session(0, 1)._goal.anew == anew
 
 
-def test_an_action_that_stays_counts_once_in_a_cell_of_an_episode() -> None:
+def test_an_action_that_does_not_move_is_counted_once_per_cell_and_episode() -> None:
     _, imagination = imagination_of()
     play(imagination, [Action.B, *[Action.B] * 9, Action.R, Action.B])  # to (2, 0), where it is stopped; to (3, 0)
     play(imagination, [Action.B, Action.B])

@@ -1,4 +1,4 @@
-"""What a run knows of its arena: where the blocks of each real episode went, and what was built last."""
+"""A run's knowledge of its arena: where the blocks of each real episode went, and which cells were built last."""
 
 import numpy as np
 
@@ -10,7 +10,7 @@ AHEAD = (0, 1)
 
 
 def episode(experience: Experience, *blocks: tuple[int, int, int]) -> None:
-    """Add an episode whose blocks land one cell ahead of x, y, and are paid so."""
+    """Add an episode whose blocks, each (x, y, paid), land one cell ahead of x, y."""
     experience.begin()
     for left, (x, y, paid) in zip(range(len(blocks), 0, -1), blocks, strict=True):
         experience.add(RealStep(x, y, left, 0, x, y, left - 1, paid, 0))
@@ -21,7 +21,7 @@ def known_in(experience: Experience, blocks: int) -> KnownArena:
     return known_arena(experience, AHEAD, believe(experience.steps, AHEAD, 5, blocks))
 
 
-def test_a_new_cell_is_new_once_and_then_built_or_wasted() -> None:
+def test_a_cell_counts_as_new_once_and_then_as_built_or_wasted() -> None:
     experience = Experience()
     episode(experience, (1, 1, 1), (3, 3, 0))
     episode(experience, (1, 1, 1), (3, 3, 0), (2, 1, 1))
@@ -50,14 +50,14 @@ def test_before_the_first_episode_nothing_is_known() -> None:
     assert np.all(known.cells == Belief.UNKNOWN)
 
 
-def test_the_numbers_go_on_where_old_episodes_are_forgotten() -> None:
+def test_episode_numbers_continue_after_old_episodes_are_forgotten() -> None:
     experience = Experience()
     for _ in range(103):
         episode(experience, (1, 1, 1))
     assert [blocks.episode for blocks in known_in(experience, 1).episodes] == list(range(4, 104))
 
 
-def test_what_another_run_brought_is_known_and_is_no_episode_of_this_one() -> None:
+def test_cells_of_an_earlier_run_are_known_but_its_episodes_are_not_counted() -> None:
     earlier, experience = Experience(), Experience()
     episode(earlier, (1, 1, 1), (3, 3, 0))
     experience.begin_from(earlier.state(), pays=True, materials=True)
@@ -68,7 +68,7 @@ def test_what_another_run_brought_is_known_and_is_no_episode_of_this_one() -> No
     assert known_in(experience, 2).built_last == {(1, 2), (2, 2)}
 
 
-def test_of_another_design_no_cell_is_known_and_every_cell_is_new() -> None:
+def test_an_earlier_run_on_another_design_leaves_every_cell_unknown_and_new() -> None:
     earlier, experience = Experience(), Experience()
     episode(earlier, (1, 1, 1), (3, 3, 0))
     experience.begin_from(earlier.state(), pays=False, materials=False)

@@ -1,4 +1,4 @@
-"""The learnt game, taught by transitions of the real rules, does as a Game what every Game has to."""
+"""The learnt game, taught by transitions of the real rules, keeps the contract of every Game."""
 
 import numpy as np
 import pytest
@@ -22,7 +22,7 @@ LINE = load_scenario("line")
 
 
 class ImaginedGame(made_games.Plain):
-    """A Game that does what was learnt."""
+    """A Game that plays by the learnt rules."""
 
     def __init__(self, arena: ImaginedArena, start: Cell) -> None:
         self._arena = arena
@@ -42,7 +42,7 @@ class ImaginedGame(made_games.Plain):
 
 
 def imagined(game: Game, scenario: Scenario, episodes: int) -> ImaginedGame:
-    """Return the game that random actions in another one teach."""
+    """Return the game that is learnt from random actions in another one."""
     seen = seen_at_random(game, scenario, episodes)
     rules = learn_rules(seen.steps, seen.first_of_episode, len(Action), scenario.size)
     beliefs = believe(seen.steps, rules.lands, scenario.size, scenario.blocks)
@@ -58,11 +58,11 @@ def test_a_learnt_game_of_the_real_rules_passes_the_game_contract() -> None:
 
 
 @given(st.lists(st.sampled_from(Action), max_size=80))
-def test_it_passes_over_any_actions(actions: list[Action]) -> None:
+def test_a_learnt_game_passes_the_contract_over_any_actions(actions: list[Action]) -> None:
     check_game(TAUGHT, LINE, actions)
 
 
-def test_taught_by_a_game_where_actions_slip_it_passes_too() -> None:
+def test_a_game_learnt_from_slipping_actions_passes_the_contract() -> None:
     check_game(imagined(Slipping(GridGame(LINE), 0.05, np.random.default_rng(1)), LINE, 30), LINE, BUMPS)
 
 
@@ -72,7 +72,7 @@ def test_a_game_learnt_from_too_little_fails_the_contract() -> None:
 
 
 @given(st.lists(st.sampled_from(Action), max_size=40))
-def test_a_game_learnt_from_other_rules_follows_those(actions: list[Action]) -> None:
+def test_a_game_learnt_from_other_rules_follows_those_rules(actions: list[Action]) -> None:
     def other() -> MadeUpGame:
         return MadeUpGame(TRUE_MOVES[::-1], TRUE_PLACES[::-1], (1, 0), BENT)
 

@@ -26,7 +26,7 @@ def learnt(seen: Experience) -> LearntRules:
 
 
 def explained_by(*actions: Action) -> LearntRules:
-    """Return what an episode of these actions, and no more, says."""
+    """Return the rules learnt from one episode of these actions alone."""
     seen = Experience()
     play(GridGame(BENT), BENT, actions, seen)
     return learnt(seen)
@@ -39,14 +39,14 @@ def test_random_actions_show_the_true_rules(seed: int) -> None:
 
 @pytest.mark.parametrize("seed", range(4))
 @pytest.mark.parametrize("lands", [(1, 0), (-1, -1), (0, -1)])
-def test_other_rules_are_learnt_as_they_are(lands: tuple[int, int], seed: int) -> None:
+def test_rules_other_than_the_real_ones_are_learnt_correctly(lands: tuple[int, int], seed: int) -> None:
     places = TRUE_PLACES[::-1]
     game = MadeUpGame(SWAPPED, places, lands, BENT)
     assert_rules(learnt(seen_at_random(game, BENT, 30, seed)), SWAPPED, places, lands)
 
 
 @pytest.mark.parametrize("seed", range(4))
-def test_one_action_in_twenty_that_slips_is_outvoted(seed: int) -> None:
+def test_the_true_rules_are_learnt_when_one_action_in_twenty_slips(seed: int) -> None:
     slips = np.random.default_rng(100 + seed)
     real = Slipping(GridGame(BENT), 0.05, slips)
     assert_rules(learnt(seen_at_random(real, BENT, 40, seed)), TRUE_MOVES, TRUE_PLACES, (0, 1))
@@ -61,7 +61,7 @@ def test_a_block_that_stops_the_next_step_shows_where_it_landed() -> None:
     assert explained_by(Action.FD, Action.FD).lands == (0, 1)
 
 
-def test_a_step_to_the_side_that_is_stopped_shows_a_block_there() -> None:
+def test_a_stopped_sideways_step_shows_a_block_beside_the_agent() -> None:
     # R is known to lead to the right; beside the block it is stopped, far from the edge.
     seen = Experience()
     game = MadeUpGame(TRUE_MOVES, TRUE_PLACES, (1, 0), BENT)
@@ -69,7 +69,7 @@ def test_a_step_to_the_side_that_is_stopped_shows_a_block_there() -> None:
     assert learnt(seen).lands == (1, 0)
 
 
-def test_an_edge_stops_a_step_and_says_nothing_of_blocks() -> None:
+def test_a_step_stopped_at_the_edge_is_not_taken_for_a_block() -> None:
     at_edge = explained_by(Action.FD, Action.FD, *[Action.B] * 4)
     assert at_edge.moves[Action.B].tolist() == [0, -1]
     assert at_edge.known.tolist() == [action in (Action.FD, Action.B) for action in Action]
@@ -91,13 +91,13 @@ def test_a_try_where_no_block_could_land_does_not_count_against_an_action() -> N
     assert rules.lands == (0, 1)
 
 
-def test_an_action_that_places_elsewhere_but_not_where_a_block_could_land_shows_where_it_can_not() -> None:
+def test_a_failed_placement_at_the_edge_shows_that_blocks_land_ahead() -> None:
     # Along the far edge RD places nothing: were it not ahead that blocks land, it would have.
     to_the_edge, along_it, back = [Action.F] * 3, [Action.RD] * 2, [Action.B, Action.LD, Action.B, Action.RD]
     assert explained_by(*to_the_edge, *along_it, *back).lands[1] == 1
 
 
-def test_blocks_are_gone_in_the_next_episode() -> None:
+def test_blocks_of_one_episode_do_not_count_in_the_next() -> None:
     seen = Experience()
     game = GridGame(BENT)
     play(game, BENT, [Action.FD, Action.FD], seen)
@@ -117,11 +117,11 @@ def unclear(*steps: tuple[Action, int, int]) -> list[Action]:
     return [Action(int(at)) for at in np.flatnonzero(unclear_moves(moved(*steps), len(Action)))]
 
 
-def test_where_nothing_slips_one_step_makes_a_move_clear() -> None:
+def test_one_step_makes_a_move_clear_when_nothing_slips() -> None:
     assert unclear((Action.L, -1, 0), (Action.B, 0, -1), (Action.L, 0, 0)) == []
 
 
-def test_where_something_slips_a_move_is_clear_once_it_leads_by_two() -> None:
+def test_a_move_needs_a_lead_of_two_to_be_clear_when_actions_slip() -> None:
     slipped = (Action.L, -1, 0), (Action.L, -1, 0), (Action.L, -1, 0), (Action.L, 0, 1)
     once, twice = (Action.B, -1, 0), ((Action.R, 1, 0), (Action.R, 1, 0))
     assert unclear(*slipped, once, *twice) == [each for each in Action if each not in (Action.L, Action.R)]

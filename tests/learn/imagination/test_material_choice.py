@@ -27,16 +27,16 @@ def test_before_the_first_episode_all_materials_are_worth_the_same() -> None:
     assert scores_of_materials(brought(), 2, 3, 2.4).tolist() == [5.4, 5.4]
 
 
-def test_a_material_that_was_never_tried_is_worth_as_many_blocks_more_than_the_best() -> None:
+def test_an_untried_material_is_worth_all_blocks_more_than_the_best() -> None:
     assert scores_of_materials(brought((0, -5.0)), 2, 3, 3.0).tolist() == [-2.0, 1.0]
     assert scores_of_materials(brought((1, 10.0)), 3, 4, 4.0).tolist() == [18.0, 14.0, 18.0]
 
 
-def test_when_all_were_tried_the_best_is_what_brought_most() -> None:
+def test_the_material_that_brought_most_is_the_best_once_all_were_tried() -> None:
     assert scores_of_materials(brought((0, -5.0), (1, 10.0)), 2, 3, 3.0).tolist() == [-2.0, 13.0]
 
 
-def test_the_last_episodes_of_a_material_are_what_it_brings() -> None:
+def test_a_materials_score_is_the_mean_of_its_last_three_episodes() -> None:
     assert LAST == 3
     extras = brought((1, 90.0), (1, 1.0), (0, -5.0), (1, 2.0), (1, 6.0))
     assert scores_of_materials(extras, 2, 3, 0.0).tolist() == [-5.0, 3.0]
@@ -53,7 +53,7 @@ def test_the_learnt_values_are_close_to_the_scores(scores: tuple[float, ...]) ->
         assert main.act(START[None], np.zeros(1), np.zeros((1, 2)))[0] == int(np.argmax(scores))
 
 
-def test_what_was_learnt_takes_one_update_to_confirm() -> None:
+def test_learning_the_same_scores_again_takes_at_most_three_updates() -> None:
     main = main_of(1)
     scores = np.array([-2.0, 13.0])
     learn_choice(main, 0, START, scores)
@@ -62,7 +62,7 @@ def test_what_was_learnt_takes_one_update_to_confirm() -> None:
     assert int(main.engine.updates[0]) - before <= 3
 
 
-def test_another_runs_main_agent_stays_as_it_is_and_it_learns_the_same_alone() -> None:
+def test_a_runs_main_agent_learns_the_same_alone_and_leaves_another_runs_unchanged() -> None:
     beside, alone = main_of(2), main_of(1)
     untouched = beside.engine.online[1].copy()
     for main in (beside, alone):
@@ -72,7 +72,7 @@ def test_another_runs_main_agent_stays_as_it_is_and_it_learns_the_same_alone() -
     assert beside.engine.updates.tolist() == [alone.engine.updates[0], 0]
 
 
-def test_a_material_that_another_game_tries_for_the_first_time_is_worth_less_than_the_best() -> None:
+def test_an_untried_material_that_another_game_tries_is_worth_less_than_the_best() -> None:
     assert scores_of_materials(brought(), 3, 3, 2.4, elsewhere=[0]).tolist() == pytest.approx([-0.6, 5.4, 5.4])
     assert scores_of_materials(brought((1, 10.0)), 2, 4, 4.0, elsewhere=[0]).tolist() == [10.0, 14.0]
     assert scores_of_materials(brought((1, 10.0)), 2, 4, 4.0, elsewhere=[1]).tolist() == [18.0, 14.0]

@@ -1,4 +1,4 @@
-"""What each part of [imagination] does that an ablation turns off."""
+"""The effect of each part of [imagination] that an ablation turns off."""
 
 import numpy as np
 import pytest
@@ -26,7 +26,7 @@ def steps_that_placed(cells: dict[tuple[int, int], int]) -> Int64s:
     return np.array(rows, dtype=np.int64)
 
 
-def test_without_neighbours_every_unknown_cell_is_alike() -> None:
+def test_every_unknown_cell_pays_the_same_without_neighbours() -> None:
     steps = steps_that_placed({(2, 2): 1, (0, 4): 0})
     with_them = believe(steps, LANDS, SIZE, BLOCKS)
     assert with_them.pay[2, 3] > with_them.pay[4, 4]
@@ -37,7 +37,7 @@ def test_without_neighbours_every_unknown_cell_is_alike() -> None:
     assert without.pay[4, 4] == without.pay[2, 3] == 1.0
 
 
-def test_without_optimism_only_what_is_known_to_pay_pays() -> None:
+def test_only_cells_known_to_pay_are_paid_without_optimism() -> None:
     beliefs = believe(steps_that_placed({(2, 2): 1, (0, 4): 0}), LANDS, SIZE, BLOCKS, optimism=False, neighbours=False)
     assert beliefs.explores
     assert np.argwhere(beliefs.pay).tolist() == [[2, 2]]
@@ -60,7 +60,7 @@ def trained(preset: Preset, scenario: Scenario = BAR) -> Agent:
 
 
 @pytest.mark.parametrize("part", ["double", "real_transitions"])
-def test_a_practice_without_that_part_learns_something_else(part: str) -> None:
+def test_turning_off_double_or_real_transitions_changes_the_learnt_networks(part: str) -> None:
     usual, again, without = (
         trained(live_with(**changes)).low_level.engine.online for changes in ({}, {part: True}, {part: False})
     )

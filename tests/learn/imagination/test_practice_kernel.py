@@ -19,7 +19,7 @@ GAMMA = SMALL.update.gamma
 
 
 class Practising:
-    """One learner's practice in the kernel, by the numbers that are given."""
+    """One learner's practice in the kernel, with given random numbers."""
 
     def __init__(
         self, learner: Learner, step_limit: int, learning_starts: int = 1, target_period: int = 1000, n_steps: int = 1
@@ -72,7 +72,7 @@ def batch_of(replay: PracticeReplay, held: int, uniforms: Float64s, pay: Float32
 
 
 @pytest.mark.parametrize(("steps", "target_period"), [(1, 1000), (1, 1), (10, 3)])
-def test_updates_are_those_of_ddqn_from_the_same_batches(steps: int, target_period: int) -> None:
+def test_kernel_updates_match_the_engines_ddqn_updates_on_the_same_batches(steps: int, target_period: int) -> None:
     ours, theirs = learner_of(), learner_of()
     compiled_engine(theirs.engine).rule = theirs.engine.rule._replace(target_period=target_period)
     at = Practising(ours, steps, target_period=target_period)
@@ -103,7 +103,7 @@ def test_updates_are_those_of_ddqn_from_the_same_batches(steps: int, target_peri
         np.testing.assert_allclose(one, other, rtol=1e-3, atol=1e-6)
 
 
-def test_a_real_transition_is_paid_by_what_is_believed_now() -> None:
+def test_a_real_transition_is_paid_by_the_current_beliefs() -> None:
     # Two learners with the same transition and numbers: where the cell is believed to pay, the value rises more.
     values = []
     for pays in (1.0, 0.0):
@@ -123,7 +123,7 @@ def test_a_real_transition_is_paid_by_what_is_believed_now() -> None:
     np.testing.assert_allclose(values, [1.0, 0.0], atol=0.1)
 
 
-def test_there_is_no_update_before_there_are_enough_transitions() -> None:
+def test_updates_begin_once_there_are_enough_transitions() -> None:
     at = Practising(learner_of(), 4, learning_starts=6)
     at.go(np.full(at.longest, 0.99))
     assert (int(at.replay.added[0]), int(at.row.updates[0])) == (4, 0)
@@ -132,13 +132,13 @@ def test_there_is_no_update_before_there_are_enough_transitions() -> None:
     assert (int(at.replay.added[0]), int(at.row.updates[0])) == (8, 3), "at the sixth, the seventh and the eighth"
 
 
-def test_numbers_that_do_not_suffice_for_an_episode_are_not_used() -> None:
+def test_random_numbers_too_few_for_an_episode_are_not_used() -> None:
     at = Practising(learner_of(), 3)
     at.go(np.zeros(at.longest - 1))
     assert (at.progress.episodes[0], at.replay.added[0], at.row.updates[0]) == (0, 0, 0)
 
 
-def test_every_so_many_episodes_one_is_greedy_and_stores_nothing() -> None:
+def test_a_regular_share_of_episodes_is_greedy_and_stores_nothing() -> None:
     at = Practising(learner_of(), 2)
     at.go(np.random.default_rng(0).random(40 * at.longest), paid_everywhere(at.arena))
     episodes = int(at.progress.episodes[0])
@@ -147,7 +147,7 @@ def test_every_so_many_episodes_one_is_greedy_and_stores_nothing() -> None:
     assert int(at.replay.added[0]) == int(at.row.updates[0]) == 2 * (episodes - greedy)
 
 
-def test_the_highest_number_makes_every_step_one_by_chance_with_the_action_that_the_next_number_says() -> None:
+def test_the_highest_epsilon_makes_every_step_random_with_actions_picked_by_numbers() -> None:
     at = Practising(learner_of(), 4, learning_starts=10**6)
     numbers = np.concatenate(([1 - 1e-12], np.tile([0.5], at.longest - 1)))
     numbers[[3, 5, 7, 9]] = [4 / 8, 0.0, 6 / 8, 1 - 1e-12]  # FD, F, RD, BD
@@ -160,7 +160,7 @@ def test_the_highest_number_makes_every_step_one_by_chance_with_the_action_that_
     assert at.replay.terminated[:4].tolist() == [False, False, False, True]
 
 
-def test_beyond_its_capacity_the_oldest_transition_is_overwritten() -> None:
+def test_a_full_practice_replay_overwrites_its_oldest_transition() -> None:
     at = Practising(learner_of(), 4, learning_starts=10**6)
     room = at.replay._replace(
         **{name: part[:3].copy() for name, part in at.replay._asdict().items() if name != "added"}
@@ -200,7 +200,7 @@ def test_a_target_adds_up_the_rewards_of_n_steps_and_the_value_after_them() -> N
     assert followed(replay, 1, at.arena, one_step) == pytest.approx((1, 1.0, GAMMA))
 
 
-def test_a_target_ends_where_the_episode_does_or_a_block_is_wasted() -> None:
+def test_a_target_ends_with_the_episode_or_at_a_wasted_block() -> None:
     at, replay = held([PAID, PAID, PAID], 100)
     replay.terminated[1] = True
     assert followed(replay, 0, at.arena, at.rule) == pytest.approx((1, 1 + GAMMA, 0.0))
@@ -208,7 +208,7 @@ def test_a_target_ends_where_the_episode_does_or_a_block_is_wasted() -> None:
     assert followed(replay, 0, at.arena, at.rule) == pytest.approx((1, 1.0, 0.0))
 
 
-def test_a_target_goes_no_further_than_what_is_held_of_the_episode() -> None:
+def test_a_target_ends_at_the_last_held_transition_of_its_episode() -> None:
     at, replay = held([PAID, PAID], 100)
     assert followed(replay, 1, at.arena, at.rule) == pytest.approx((1, 1.0, GAMMA)), "the newest transition"
     replay.states[1] = 55
@@ -218,7 +218,7 @@ def test_a_target_goes_no_further_than_what_is_held_of_the_episode() -> None:
     assert followed(replay, 1, at.arena, at.rule) == pytest.approx((1, 1.0, GAMMA)), "the oldest follows in its place"
 
 
-def test_the_table_plays_where_a_low_number_says_so() -> None:
+def test_a_low_number_lets_the_table_choose_the_episodes_actions() -> None:
     at = Practising(learner_of(), 2, learning_starts=10**6)
     at.work.table[:, 2] = 1.0  # L everywhere, and nothing explored
     at.rule = at.rule._replace(by_table=0.5, highest_epsilon=1e-9, lowest_epsilon=1e-9)
@@ -228,7 +228,7 @@ def test_the_table_plays_where_a_low_number_says_so() -> None:
     assert at.replay.actions[:2].tolist() == [2, 2]
 
 
-def test_an_imagined_episode_ends_where_a_block_is_wasted() -> None:
+def test_an_imagined_episode_ends_at_a_wasted_block() -> None:
     at = Practising(learner_of(), 4, learning_starts=10**6)
     at.work.table[:, 6] = 1.0  # RD: from (2, 1) to (3, 1), and a block lands in (3, 2), which isn't paid
     at.rule = at.rule._replace(by_table=1.0, highest_epsilon=1e-9, lowest_epsilon=1e-9)

@@ -53,7 +53,7 @@ def greedy_score(learner: Learner, row: int) -> float:
 
 
 @pytest.mark.parametrize("seed", range(3))
-def test_it_reaches_the_aim_and_the_policy_plays_as_well_outside(seed: int) -> None:
+def test_a_practice_reaches_its_aim_and_its_policy_plays_as_well_outside(seed: int) -> None:
     learner = learner_of(seed=seed)
     result, _ = practised(learner)
     assert result.reached
@@ -61,7 +61,7 @@ def test_it_reaches_the_aim_and_the_policy_plays_as_well_outside(seed: int) -> N
     assert 0 < result.updates == learner.engine.updates[0] < 15_000
 
 
-def test_what_was_reached_is_confirmed_by_one_greedy_episode_without_an_update() -> None:
+def test_a_reached_aim_is_confirmed_by_one_greedy_episode_without_an_update() -> None:
     learner = learner_of()
     practised(learner)
     online = learner.engine.online.copy()
@@ -69,7 +69,7 @@ def test_what_was_reached_is_confirmed_by_one_greedy_episode_without_an_update()
     np.testing.assert_array_equal(learner.engine.online, online)
 
 
-def test_only_the_named_row_changes_as_it_would_alone() -> None:
+def test_a_practice_changes_its_own_row_only_and_ignores_the_other_rows() -> None:
     learner, alone = learner_of(3), learner_of(3)
     before = {name: kept.copy() for name, kept in learner.engine.state().items()}
     practised(learner, row=1)
@@ -82,7 +82,7 @@ def test_only_the_named_row_changes_as_it_would_alone() -> None:
     assert learner.replay.added.tolist() == [0, 0, 0], "a practice has a replay of its own"
 
 
-def test_the_same_numbers_make_the_same_networks_and_others_do_not() -> None:
+def test_the_same_seed_practises_the_same_networks_and_another_does_not() -> None:
     one, same, other = learner_of(), learner_of(), learner_of()
     results = [practised(one)[0], practised(same)[0]]
     assert results[0] == results[1]
@@ -92,7 +92,7 @@ def test_the_same_numbers_make_the_same_networks_and_others_do_not() -> None:
     assert (one.engine.online != other.engine.online).any()
 
 
-def test_a_budget_ends_what_can_not_be_reached() -> None:
+def test_a_practice_with_an_unreachable_aim_ends_at_its_budget() -> None:
     result, _ = practised(learner_of(), goal=UNREACHABLE)
     assert not result.reached
     assert result.updates >= UNREACHABLE.most_updates
@@ -101,7 +101,7 @@ def test_a_budget_ends_what_can_not_be_reached() -> None:
     assert result.episodes > 10
 
 
-def test_where_the_tables_fall_short_it_ends_when_the_networks_have_what_those_found() -> None:
+def test_a_practice_ends_when_the_networks_reach_the_score_of_tables_that_fell_short() -> None:
     result, _ = practised(learner_of(), goal=GOAL._replace(aim=float(BENT.blocks + 1)))
     assert not result.reached
     assert result.score == BENT.blocks
@@ -109,7 +109,7 @@ def test_where_the_tables_fall_short_it_ends_when_the_networks_have_what_those_f
 
 
 @pytest.mark.parametrize("seed", range(4))
-def test_one_that_falls_short_leaves_the_policy_that_did_best(seed: int) -> None:
+def test_a_practice_that_falls_short_leaves_its_best_policy(seed: int) -> None:
     learner = learner_of(seed=seed)
     result, _ = practised(learner, goal=UNREACHABLE._replace(most_updates=3_000), seed=seed)
     assert not result.reached
@@ -119,7 +119,7 @@ def test_one_that_falls_short_leaves_the_policy_that_did_best(seed: int) -> None
     np.testing.assert_array_equal(learner.engine.online, learner.engine.target)
 
 
-def test_networks_that_can_not_learn_any_more_begin_anew_where_they_are_told_to() -> None:
+def test_saturated_networks_reach_the_aim_only_when_they_begin_anew() -> None:
     results = []
     for anew in (False, True):
         learner = learner_of()
@@ -128,7 +128,7 @@ def test_networks_that_can_not_learn_any_more_begin_anew_where_they_are_told_to(
     assert results == [False, True]
 
 
-def test_it_ends_when_it_is_told_to() -> None:
+def test_a_practice_ends_when_told_to() -> None:
     answers = iter([True, True, False])
     learner = learner_of()
     goal = UNREACHABLE._replace(most_updates=10**9)
@@ -140,7 +140,7 @@ def test_it_ends_when_it_is_told_to() -> None:
     assert list(answers) == []
 
 
-def test_a_practice_that_is_told_to_end_at_once_changes_nothing() -> None:
+def test_a_practice_told_to_end_at_once_makes_no_update() -> None:
     learner = learner_of()
     practice, random = NetworkPractice(learner, SMALL, RULE), np.random.default_rng(0)
     session = practice.session(0, arena_of(), GOAL, MATERIAL, real_of(learner), random)
@@ -148,7 +148,7 @@ def test_a_practice_that_is_told_to_end_at_once_changes_nothing() -> None:
     assert session.practised == Practised(0, 0, 0.0, False)
 
 
-def test_networks_that_diverge_are_reported_in_one_line() -> None:
+def test_diverging_networks_are_reported_in_one_line() -> None:
     diverging = with_update(SMALL, learning_rate=1e38)
     learner = learner_of()
     with pytest.raises(DivergedError, match="lower it in the preset") as caught:
@@ -156,7 +156,7 @@ def test_networks_that_diverge_are_reported_in_one_line() -> None:
     assert "\n" not in str(caught.value)
 
 
-def test_the_real_transitions_are_in_its_replay_and_the_imagined_ones_follow() -> None:
+def test_a_practices_replay_holds_real_transitions_first_and_then_imagined_ones() -> None:
     learner, arena = learner_of(), arena_of()
     real = real_of(
         learner,
@@ -190,7 +190,7 @@ def test_the_next_practice_begins_with_its_own_real_transitions_alone() -> None:
     assert practice._replay.added.tolist() == [1]
 
 
-def test_where_a_real_block_landed_follows_from_the_agents_place_after_the_action() -> None:
+def test_landed_cells_follow_from_the_agents_cell_after_each_action() -> None:
     arena = arena_of()
     steps = np.array([[2, 1, 3, 4, 2, 2, 2, 0, 1], [2, 2, 2, 0, 2, 2, 2, 0, 1], [2, 2, 2, 5, 1, 2, 1, 1, 1]])
     assert landed_cells(steps, (0, 1), arena).tolist() == [index_of((2, 3), arena), NOWHERE, index_of((1, 3), arena)]

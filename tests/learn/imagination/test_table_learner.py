@@ -30,7 +30,7 @@ ALL_BY_CHANCE = 0.999_999
 
 
 class Learning:
-    """Tables that learn the small design, by the numbers that are given."""
+    """Tables that learn the small design, with given random numbers."""
 
     def __init__(
         self,
@@ -73,7 +73,7 @@ def chosen_by_chance(*actions: Action, longest: int) -> Float64s:
     return numbers
 
 
-def test_every_table_learns_from_an_episode_backwards_and_the_last_outcome_counts_alone() -> None:
+def test_every_table_learns_an_episode_backwards_and_the_latest_outcome_counts_alone() -> None:
     at = Learning(step_limit=3, first_episode=1)
     # From (2, 1): left, right, and forward with a block that lands in (2, 3), which pays.
     at.go(chosen_by_chance(Action.L, Action.R, Action.FD, longest=longest_episode(at.task)))
@@ -93,7 +93,7 @@ def test_every_table_learns_from_an_episode_backwards_and_the_last_outcome_count
     assert at.by_blocks(2, 1, 3, Action.FD) == pytest.approx(0.5, abs=1e-5)
 
 
-def test_a_step_that_is_paid_makes_what_follows_count_for_no_less() -> None:
+def test_values_after_a_paid_step_are_not_discounted() -> None:
     at = Learning(first_episode=1, step_limit=4)
     at.arena.pay[1:] = 1.0
     # Left; forward with a block; back without; and a block in the way that it has come from.
@@ -102,7 +102,7 @@ def test_a_step_that_is_paid_makes_what_follows_count_for_no_less() -> None:
     assert at.exact(2, 1, Action.L) == pytest.approx(GAMMA_BUILT * (1.0 + GAMMA_BUILT))
 
 
-def test_an_episode_ends_where_a_block_is_wasted_and_nothing_follows_it() -> None:
+def test_an_episode_ends_at_a_wasted_block_whose_value_is_0() -> None:
     at = Learning(first_episode=1)
     at.tables.by_blocks[:] = 7.0
     at.go(chosen_by_chance(Action.RD, longest=longest_episode(at.task)))
@@ -111,20 +111,20 @@ def test_an_episode_ends_where_a_block_is_wasted_and_nothing_follows_it() -> Non
     assert at.progress.steps[0] == 1
 
 
-def test_the_last_blocks_step_has_no_value_after_it() -> None:
+def test_the_step_that_places_the_last_block_is_worth_its_reward_alone() -> None:
     at = Learning(blocks=1, first_episode=1)
     at.tables.by_blocks[:] = 7.0
     at.go(chosen_by_chance(Action.FD, longest=longest_episode(at.task)))
     assert at.by_blocks(2, 1, 1, Action.FD) == 1.0
 
 
-def test_numbers_that_do_not_suffice_for_an_episode_are_not_used() -> None:
+def test_random_numbers_too_few_for_an_episode_are_not_used() -> None:
     at = Learning()
     at.go(np.zeros(longest_episode(at.task) - 1))
     assert (at.progress.episodes[0], at.progress.steps[0]) == (0, 0)
 
 
-def test_a_greedy_episode_teaches_nothing_and_ends_where_it_would_go_round() -> None:
+def test_a_greedy_episode_leaves_random_numbers_for_one_more_episode() -> None:
     at = Learning()
     at.go(np.random.default_rng(0).random(3 + longest_episode(at.task)))
     # The first episode is greedy, the second isn't, and after that there are too few numbers.
@@ -133,7 +133,7 @@ def test_a_greedy_episode_teaches_nothing_and_ends_where_it_would_go_round() -> 
 
 
 @pytest.mark.parametrize("seed", range(5))
-def test_it_finds_how_to_build_the_design_and_the_values_by_x_y_b_can_be_made_to_follow(seed: int) -> None:
+def test_tables_learn_to_build_the_design_and_prefer_best_makes_values_by_x_y_b_follow(seed: int) -> None:
     at = Learning()
     at.go(np.random.default_rng(seed).random(200_000))
     assert at.progress.reached[0]
@@ -157,7 +157,7 @@ def greedy_score(at: Learning) -> float:
     return score
 
 
-def test_when_the_exact_values_are_full_all_is_forgotten_but_the_best_way_known() -> None:
+def test_full_exact_values_are_forgotten_but_the_best_way_is_kept() -> None:
     at = Learning(room=64, aim=BENT.blocks + 1.0)
     at.go(np.random.default_rng(3).random(60_000))
     assert at.progress.score[0] == BENT.blocks, "an aim out of reach: it goes on for ever"
@@ -170,7 +170,7 @@ def test_when_the_exact_values_are_full_all_is_forgotten_but_the_best_way_known(
     assert min(len(way) for way in ways) == at.tables.best_steps[0], "no way that takes longer is taken for better"
 
 
-def test_habits_are_those_of_the_best_way_alone() -> None:
+def test_habits_come_from_the_best_way_alone() -> None:
     at = Learning()
     at.go(np.random.default_rng(1).random(5_000))
     steps = at.tables.best_steps[0]
@@ -180,7 +180,7 @@ def test_habits_are_those_of_the_best_way_alone() -> None:
     assert found
 
 
-def test_what_is_built_around_a_cell_makes_other_surroundings() -> None:
+def test_surroundings_depend_on_the_eight_cells_around_a_cell_alone() -> None:
     at = Learning()
     here = index_of((2, 2), at.arena)
     around = {table_learner._around(here, at.arena.empty, at.arena)}
@@ -193,7 +193,7 @@ def test_what_is_built_around_a_cell_makes_other_surroundings() -> None:
     assert {value >> AROUND for value in around} == {here}
 
 
-def test_the_same_numbers_make_the_same_tables() -> None:
+def test_the_same_random_numbers_make_the_same_tables() -> None:
     tables = []
     for seed in (1, 1, 2):
         at = Learning()

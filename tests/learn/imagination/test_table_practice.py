@@ -30,14 +30,14 @@ def run(table: TablePractice) -> None:
         table.learn(numbers.random(2_000))
 
 
-def test_it_ends_when_its_aim_is_reached_and_the_networks_have_the_same() -> None:
+def test_a_table_practice_ends_at_its_aim_and_gives_the_networks_the_same_aim() -> None:
     table = practice()
     run(table)
     assert 0 < table.steps < 10_000
     assert table.aim == pytest.approx(ALL)
 
 
-def test_it_ends_when_its_steps_are_used_up_and_the_networks_aim_is_what_was_found() -> None:
+def test_a_table_practice_out_of_steps_gives_the_networks_the_score_found_as_aim() -> None:
     table = practice(aim=ALL + 2)
     run(table)
     assert 10_000 <= table.steps < 12_000
@@ -45,13 +45,13 @@ def test_it_ends_when_its_steps_are_used_up_and_the_networks_aim_is_what_was_fou
     assert table.aim < ALL, "the same blocks in another order reach it, too"
 
 
-def test_without_steps_there_is_none_and_the_aim_stays() -> None:
+def test_a_table_practice_without_steps_is_over_at_once_and_keeps_the_aim() -> None:
     table = practice(aim=ALL + 2, most_steps=0)
     assert table.is_over
     assert table.aim == ALL + 2
 
 
-def test_it_begins_anew_after_twice_as_many_steps_each_time(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_table_practice_begins_anew_after_twice_as_many_steps_each_time(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(table_practice, "FIRST_STEPS", 2_000)
     anew: list[int] = []
     table = practice(aim=ALL + 2, most_steps=30_000)
@@ -61,7 +61,7 @@ def test_it_begins_anew_after_twice_as_many_steps_each_time(monkeypatch: pytest.
 
 
 @pytest.mark.parametrize("seed", [0, pytest.param(1, marks=pytest.mark.slow)])
-def test_it_finds_how_to_build_a_house_of_forty_blocks(seed: int) -> None:
+def test_a_table_practice_finds_how_to_build_a_house_of_forty_blocks(seed: int) -> None:
     house = load_scenario("house")
     arena = arena_of(house)
     strides = np.array([house.size * (house.blocks + 1), house.blocks + 1, 1])
@@ -76,7 +76,7 @@ def test_it_finds_how_to_build_a_house_of_forty_blocks(seed: int) -> None:
     assert table.aim == pytest.approx(house.blocks)
 
 
-def test_practice_without_random_numbers_only_compiles() -> None:
+def test_learning_without_random_numbers_takes_no_steps() -> None:
     table = practice()
     table.learn(np.empty(0))
     assert (table.steps, table.is_over) == (0, False)

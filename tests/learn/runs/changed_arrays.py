@@ -1,4 +1,4 @@
-"""Files of arrays that somebody has changed."""
+"""Files of arrays that a test has changed."""
 
 from collections.abc import Callable
 from pathlib import Path
@@ -9,7 +9,7 @@ from mc_nested.arrays import Arrays
 
 
 def change_arrays(file: Path, change: Callable[[Arrays], object]) -> None:
-    """Change what a checkpoint's file holds."""
+    """Change the arrays in a checkpoint's file."""
     with np.load(file) as found:
         arrays = dict(found)
     change(arrays)

@@ -1,4 +1,4 @@
-"""Checkpoints: whole or not at all, what was added journalled, and never taken for another run's."""
+"""Checkpoints: whole or not at all, with additions in journals, and never taken for another run's."""
 
 import itertools
 from collections.abc import Mapping
@@ -49,7 +49,7 @@ def loaded(folder: Path, identity: Mapping[str, Any] = IDENTITY) -> list[int]:
     return counts.numbers
 
 
-def test_what_was_saved_is_read_back(tmp_path: Path) -> None:
+def test_a_saved_checkpoint_is_read_back(tmp_path: Path) -> None:
     checkpoint, counts = Checkpoint(tmp_path / "checkpoint", IDENTITY), Counts()
     assert not checkpoint.exists
     for _ in range(3):
@@ -59,7 +59,7 @@ def test_what_was_saved_is_read_back(tmp_path: Path) -> None:
     assert loaded(tmp_path / "checkpoint") == [0, 3, 6, 9, 12, 15]
 
 
-def test_a_save_writes_only_what_was_added(tmp_path: Path) -> None:
+def test_a_save_writes_only_the_additions(tmp_path: Path) -> None:
     checkpoint, counts = Checkpoint(tmp_path, IDENTITY), Counts()
     checkpoint.save(counts.count(50_000))
     checkpoint.save(counts.count(1))
@@ -68,7 +68,7 @@ def test_a_save_writes_only_what_was_added(tmp_path: Path) -> None:
     assert second.stat().st_size < 4_000
 
 
-def test_journals_become_one_before_they_are_many(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_journals_are_merged_before_there_are_too_many(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(checkpoint_module, "MOST_JOURNALS", 3)
     checkpoint, counts = Checkpoint(tmp_path, IDENTITY), Counts()
     for _ in range(8):
@@ -77,7 +77,7 @@ def test_journals_become_one_before_they_are_many(tmp_path: Path, monkeypatch: p
     assert loaded(tmp_path) == counts.numbers
 
 
-def test_a_loaded_training_is_saved_on_from_there(tmp_path: Path) -> None:
+def test_a_loaded_training_is_saved_with_its_further_additions(tmp_path: Path) -> None:
     Checkpoint(tmp_path, IDENTITY).save(Counts().count(4))
     again, counts = Checkpoint(tmp_path, IDENTITY), Counts()
     again.load_into(counts)
@@ -85,7 +85,7 @@ def test_a_loaded_training_is_saved_on_from_there(tmp_path: Path) -> None:
     assert loaded(tmp_path) == [0, 3, 6, 9, 12, 15]
 
 
-def test_a_finished_training_is_the_same_files_however_often_it_was_saved(tmp_path: Path) -> None:
+def test_a_finished_trainings_files_do_not_depend_on_the_number_of_saves(tmp_path: Path) -> None:
     Checkpoint(tmp_path / "one", IDENTITY).save(Counts().count(5), finished=True)
     often, counts = Checkpoint(tmp_path / "two", IDENTITY), Counts()
     for _ in range(5):
@@ -99,7 +99,7 @@ def test_a_finished_training_is_the_same_files_however_often_it_was_saved(tmp_pa
 
 
 @pytest.mark.parametrize("refused_at", [1, 2])
-def test_a_save_that_breaks_off_leaves_the_last_one(
+def test_a_failed_save_leaves_the_previous_checkpoint(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, refused_at: int
 ) -> None:
     checkpoint, counts = Checkpoint(tmp_path, IDENTITY), Counts()
@@ -137,7 +137,7 @@ def test_a_checkpoint_of_another_scenario_is_refused(tmp_path: Path) -> None:
         loaded(tmp_path, {**IDENTITY, "scenario": "diamond"})
 
 
-def test_a_file_of_one_array_is_no_checkpoint(tmp_path: Path) -> None:
+def test_a_file_of_one_array_is_refused_as_a_damaged_checkpoint(tmp_path: Path) -> None:
     Checkpoint(tmp_path, IDENTITY).save(Counts())
     with (tmp_path / FILE).open("wb") as file:
         np.save(file, np.zeros(3))
@@ -146,14 +146,14 @@ def test_a_file_of_one_array_is_no_checkpoint(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("says", ["no JSON", "[1]", "{}", '{"identity": "0", "journals": null}'])
-def test_a_file_with_another_description_of_itself_is_no_checkpoint(tmp_path: Path, says: str) -> None:
+def test_a_checkpoint_with_an_invalid_description_is_refused_as_damaged(tmp_path: Path, says: str) -> None:
     Checkpoint(tmp_path, IDENTITY).save(Counts())
     change_arrays(tmp_path / FILE, lambda arrays: arrays.update({ABOUT: np.array(says)}))
     with pytest.raises(RunError, match="damaged or cut short"):
         loaded(tmp_path)
 
 
-def test_a_flipped_bit_that_asks_for_a_password_is_damage(tmp_path: Path) -> None:
+def test_a_flipped_encryption_bit_is_reported_as_damage(tmp_path: Path) -> None:
     Checkpoint(tmp_path, IDENTITY).save(Counts())
     whole = (tmp_path / FILE).read_bytes()
     flags = whole.index(b"PK\x01\x02") + 8
@@ -163,7 +163,7 @@ def test_a_flipped_bit_that_asks_for_a_password_is_damage(tmp_path: Path) -> Non
 
 
 @pytest.mark.parametrize("at", [b"\x93NUMPY", b"'shape'", b"(2000", np.int64(3 * 1500).tobytes()])
-def test_a_flipped_bit_of_an_array_or_of_its_header_is_damage(tmp_path: Path, at: bytes) -> None:
+def test_a_flipped_bit_of_an_array_or_its_header_is_reported_as_damage(tmp_path: Path, at: bytes) -> None:
     Checkpoint(tmp_path, IDENTITY).save(Counts().count(2000))
     journal = tmp_path / "journal-000000.npz"
     whole = journal.read_bytes()
@@ -174,7 +174,7 @@ def test_a_flipped_bit_of_an_array_or_of_its_header_is_damage(tmp_path: Path, at
             loaded(tmp_path)
 
 
-def test_what_a_killed_save_left_is_removed_when_the_training_goes_on(tmp_path: Path) -> None:
+def test_files_left_by_a_killed_save_are_removed_on_loading(tmp_path: Path) -> None:
     Checkpoint(tmp_path, IDENTITY).save(Counts().count(2))
     (tmp_path / f"{FILE}.0123abcd.unfinished").write_bytes(b"half")
     assert loaded(tmp_path) == [0, 3]

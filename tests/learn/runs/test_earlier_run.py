@@ -32,7 +32,7 @@ def files(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 def words(files: Path, design: str) -> tuple[str | Path, ...]:
-    """Return the words of a training on that design until its optimum."""
+    """Return the command line's words for a training on that design until its optimum."""
     preset, scenario = files / "preset.toml", files / f"{design}.toml"
     return "train", "--preset", preset, "--scenario", scenario, "--stop-at-optimum", "--seed", "3"
 
@@ -48,7 +48,7 @@ def begun(files: Path, design: str, out: Path) -> Trainer:
     return trainer
 
 
-def test_the_same_design_is_known_from_the_beginning(files: Path, tmp_path: Path) -> None:
+def test_a_training_from_an_earlier_run_knows_the_same_design_from_the_beginning(files: Path, tmp_path: Path) -> None:
     assert run(*words(files, "small"), "--from", files / "first", "--out", tmp_path / "again") == 0
     summary = json.loads((tmp_path / "again" / "summary.json").read_text())
     assert summary["episodes_to_optimum"] == [0]
@@ -59,7 +59,7 @@ def test_the_same_design_is_known_from_the_beginning(files: Path, tmp_path: Path
     assert trainer.imagination.episodes(0) == 0
 
 
-def test_of_another_design_moves_and_materials_are_known_and_no_cell(files: Path, tmp_path: Path) -> None:
+def test_a_training_on_another_design_keeps_moves_and_materials_but_no_cells(files: Path, tmp_path: Path) -> None:
     trainer = begun(files, "beside", tmp_path / "begun")
     assert trainer.imagination is not None
     earlier = earlier_run(files / "first", RunFolder.open(tmp_path / "begun"))
@@ -79,7 +79,7 @@ def test_of_another_design_moves_and_materials_are_known_and_no_cell(files: Path
     assert not trainer.evaluation_rows, "a policy of another design isn't worth an episode"
 
 
-def test_another_design_takes_fewer_episodes_than_from_scratch(files: Path, tmp_path: Path) -> None:
+def test_a_training_from_an_earlier_run_takes_fewer_steps_than_from_scratch(files: Path, tmp_path: Path) -> None:
     played = {}
     for name, more in {"scratch": (), "begun": ("--from", files / "first")}.items():
         out = tmp_path / name
@@ -90,7 +90,7 @@ def test_another_design_takes_fewer_episodes_than_from_scratch(files: Path, tmp_
     assert played["begun"] < played["scratch"]
 
 
-def test_other_materials_are_tried_anew(files: Path, tmp_path: Path) -> None:
+def test_materials_that_differ_from_the_earlier_runs_are_tried_anew(files: Path, tmp_path: Path) -> None:
     other = (files / "small.toml").read_text("utf-8").replace("10.0", "3.0")
     (files / "poorer.toml").write_text(other, "utf-8")
     trainer = begun(files, "poorer", tmp_path / "begun")
@@ -99,7 +99,7 @@ def test_other_materials_are_tried_anew(files: Path, tmp_path: Path) -> None:
     assert trainer.imagination.known_arena(0).known_to_pay == SMALL.blocks
 
 
-def test_a_training_without_an_imagination_gives_its_policy_as_before(tmp_path: Path) -> None:
+def test_an_earlier_run_without_imagination_gives_its_policy_and_no_learnt_game(tmp_path: Path) -> None:
     trained = tmp_path / "run"
     assert run(*TRAIN, "--out", trained) == 0
     assert run("train", "--episodes", "2", "--from", trained, "--out", tmp_path / "on") == 0
@@ -112,7 +112,7 @@ def forget(state: Arrays) -> None:
         del state[name]
 
 
-def test_a_checkpoint_without_its_learnt_game_is_one_line(
+def test_a_checkpoint_without_its_learnt_game_is_refused_in_one_line(
     files: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     assert run(*words(files, "small"), "--out", tmp_path / "cut") == 0
@@ -126,7 +126,7 @@ def test_a_checkpoint_without_its_learnt_game_is_one_line(
     assert not (tmp_path / "new").exists()
 
 
-def test_a_learnt_game_of_another_shape_is_one_line(files: Path, tmp_path: Path) -> None:
+def test_a_learnt_game_of_another_shape_is_refused_as_damaged(files: Path, tmp_path: Path) -> None:
     trainer = begun(files, "small", tmp_path / "begun")
     earlier = earlier_run(files / "first", RunFolder.open(tmp_path / "begun"))
     assert earlier.game is not None

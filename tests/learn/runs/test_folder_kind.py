@@ -12,7 +12,7 @@ from mc_nested.learn.runs.folder_kind import FORMAT, VIEW, VIEW_FILES, check_con
     ("key", "verb"),
     [('agent = "nested"', "train"), ('study = "reproduce"', "reproduce"), ('study = "sweep"', "study sweep")],
 )
-def test_a_folder_is_opened_by_the_command_that_made_it_alone(key: str, verb: str) -> None:
+def test_a_folder_is_refused_by_every_command_but_the_one_that_made_it(key: str, verb: str) -> None:
     text = f"format = {FORMAT}\n{key}"
     check_config(text, Path("runs/x"), verb)
     other = "study sweep" if verb == "train" else "train"
@@ -21,19 +21,19 @@ def test_a_folder_is_opened_by_the_command_that_made_it_alone(key: str, verb: st
 
 
 @pytest.mark.parametrize("written", ["", "format = 1", f"format = {FORMAT + 1}"])
-def test_folder_of_another_version_is_refused_in_one_line(written: str) -> None:
+def test_a_folder_of_another_version_is_refused(written: str) -> None:
     with pytest.raises(RunError, match="another version of mc-nested: open it with that one, or train it again"):
         check_config(f'agent = "nested"\n{written}', Path("runs/x"), "train")
 
 
-def test_an_empty_or_missing_folder_can_be_new_and_what_a_killed_process_left_does_not_count(tmp_path: Path) -> None:
+def test_a_folder_is_free_if_missing_empty_or_holding_unfinished_files_alone(tmp_path: Path) -> None:
     check_free(tmp_path / "missing")
     check_free(tmp_path)
     (tmp_path / "config.toml.0123abcd.unfinished").write_text("half")
     check_free(tmp_path)
 
 
-def test_what_a_run_that_never_began_published_does_not_count_but_anything_else_there_does(tmp_path: Path) -> None:
+def test_view_files_leave_a_folder_free_and_any_other_file_beside_them_does_not(tmp_path: Path) -> None:
     view = tmp_path / VIEW
     view.mkdir()
     check_free(tmp_path)
@@ -46,13 +46,13 @@ def test_what_a_run_that_never_began_published_does_not_count_but_anything_else_
         check_free(tmp_path)
 
 
-def test_a_file_of_a_view_folders_name_is_not_overwritten(tmp_path: Path) -> None:
+def test_a_file_named_like_the_view_folder_is_not_overwritten(tmp_path: Path) -> None:
     (tmp_path / VIEW).write_text("mine")
     with pytest.raises(RunError, match="exists and is not empty"):
         check_free(tmp_path)
 
 
-def test_a_folder_that_holds_something_or_a_file_is_not_overwritten(tmp_path: Path) -> None:
+def test_a_file_or_a_folder_with_files_is_not_overwritten(tmp_path: Path) -> None:
     (tmp_path / "notes.txt").write_text("mine")
     (tmp_path / "config.toml.0123abcd.unfinished").write_text("half")
     for path, what in ((tmp_path, "exists and is not empty"), (tmp_path / "notes.txt", "is a file")):

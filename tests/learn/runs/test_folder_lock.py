@@ -16,7 +16,7 @@ from mc_nested.learn.runs.folder_lock import FILE, delete_folder, folder_lock, h
 from mc_nested.learn.runs.folder_lock import FILE as LOCK
 
 
-def test_a_second_process_is_refused_and_told_the_folder_and_who_holds_it(tmp_path: Path) -> None:
+def test_a_second_process_is_refused_with_the_folder_and_the_holders_process_id(tmp_path: Path) -> None:
     run = tmp_path / "runs" / "one"
     with (
         folder_lock(run),
@@ -46,7 +46,7 @@ def test_a_patient_process_waits_until_the_folder_is_free(tmp_path: Path) -> Non
     holder.join()
 
 
-def test_a_lock_is_seen_without_being_taken(tmp_path: Path) -> None:
+def test_the_holder_of_a_lock_is_found_without_taking_the_lock(tmp_path: Path) -> None:
     assert holder_of(tmp_path / "nothing") is None
     with folder_lock(tmp_path):
         assert holder_of(tmp_path) == f"process {os.getpid()}"
@@ -75,7 +75,7 @@ def test_a_file_in_the_folders_place_is_refused_in_one_line(tmp_path: Path) -> N
         pytest.fail("it was let in")
 
 
-def test_an_error_of_the_block_is_passed_on(tmp_path: Path) -> None:
+def test_an_error_raised_inside_the_lock_is_passed_on(tmp_path: Path) -> None:
     with pytest.raises(OSError, match="No locks"), folder_lock(tmp_path):
         raise OSError(errno.ENOLCK, "No locks available")
 
@@ -89,7 +89,7 @@ def run(tmp_path: Path) -> Path:
     return folder
 
 
-def test_a_run_gets_another_name_where_it_is(run: Path) -> None:
+def test_a_renamed_run_stays_in_its_parent_folder(run: Path) -> None:
     assert rename_folder(run, "two") == run.with_name("two")
     assert not run.exists()
     assert (run.with_name("two") / "checkpoint" / "state.npz").exists()
@@ -124,7 +124,7 @@ def test_a_run_is_deleted_with_all_it_holds_and_nothing_else(run: Path) -> None:
     assert [path.name for path in run.parent.iterdir()] == ["other"]
 
 
-def test_of_a_link_inside_only_the_link_is_deleted(run: Path, tmp_path: Path) -> None:
+def test_deleting_a_run_deletes_links_inside_but_not_their_targets(run: Path, tmp_path: Path) -> None:
     (tmp_path / "mine").mkdir()
     (tmp_path / "mine" / "letter.txt").touch()
     (run / "folder").symlink_to(tmp_path / "mine")
@@ -135,14 +135,14 @@ def test_of_a_link_inside_only_the_link_is_deleted(run: Path, tmp_path: Path) ->
     assert (tmp_path / "mine" / "letter.txt").exists()
 
 
-def test_a_link_to_a_run_is_not_followed(run: Path, tmp_path: Path) -> None:
+def test_deleting_a_link_to_a_run_is_refused(run: Path, tmp_path: Path) -> None:
     (tmp_path / "link").symlink_to(run)
     with pytest.raises(RunError, match=f"is a link to {run}"):
         delete_folder(tmp_path / "link")
     assert (run / "config.toml").exists()
 
 
-def test_what_was_interrupted_is_still_known_as_a_run(run: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_an_interrupted_deletion_leaves_the_runs_config(run: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     def refuses(path: Path) -> None:
         raise PermissionError(13, "Permission denied", str(path))
 

@@ -1,4 +1,4 @@
-"""A training's folder: what it holds, that old ones open, and what a disk that refuses leaves."""
+"""A training's folder: what it holds, how it is opened again, and what a full disk leaves."""
 
 import json
 import re
@@ -39,7 +39,7 @@ def begun(path: Path) -> RunFolder:
     return folder
 
 
-def test_a_run_of_another_device_is_the_same_training_and_plays_on_the_processor(tmp_path: Path) -> None:
+def test_a_run_moved_to_another_device_keeps_its_identity_and_still_plays_on_the_cpu(tmp_path: Path) -> None:
     torch = config_of().preset.changed(engine="torch")
     here = config_of().model_copy(update={"preset": torch})
     there = here.on_device("cuda")
@@ -50,7 +50,7 @@ def test_a_run_of_another_device_is_the_same_training_and_plays_on_the_processor
         config_of().on_device("cuda")
 
 
-def test_a_folder_is_opened_as_it_was_begun(tmp_path: Path) -> None:
+def test_a_begun_folder_is_opened_with_its_config_and_never_overwritten(tmp_path: Path) -> None:
     folder = begun(tmp_path / "run")
     assert RunFolder.open(tmp_path / "run").config == folder.config
     assert folder.only_begun
@@ -59,7 +59,7 @@ def test_a_folder_is_opened_as_it_was_begun(tmp_path: Path) -> None:
         RunFolder.new(tmp_path / "run", config_of())
 
 
-def test_the_profile_may_change_and_nothing_else() -> None:
+def test_a_runs_identity_ignores_the_profile_but_not_the_number_of_trials() -> None:
     assert config_of().identity() == config_of(profile="moved").identity()
     assert config_of().identity() != config_of(trials=3).identity()
     assert "format" not in config_of().identity()
@@ -82,7 +82,7 @@ def test_an_unfinished_training_has_no_final_scores_and_a_finished_one_has_every
     assert sum(int(row["steps"]) for row in rows) == summary["env_steps"]
 
 
-def test_what_was_played_to_the_optimum_counts_the_greedy_episodes_too(tmp_path: Path) -> None:
+def test_played_to_optimum_counts_greedy_episodes_too(tmp_path: Path) -> None:
     folder = RunFolder.new(tmp_path, config_of())
     trainer = trainer_in(folder)
     trainer.episode_rows += [EpisodeRow(0, number, 1.0, 1, number, 0.5, 0.5) for number in range(1, 9)]
@@ -100,7 +100,7 @@ def test_what_was_played_to_the_optimum_counts_the_greedy_episodes_too(tmp_path:
     assert (summary["wall_s"], summary["optimum"], summary["networks"]) == (1.235, 11.0, 2)
 
 
-def test_the_kept_policies_are_those_of_the_checkpoint(tmp_path: Path) -> None:
+def test_policies_are_read_back_from_the_checkpoint(tmp_path: Path) -> None:
     folder = begun(tmp_path)
     with pytest.raises(RunError, match=f"nothing is trained yet: .* --resume {re.escape(str(tmp_path))}$"):
         folder.policies()
@@ -112,7 +112,7 @@ def test_the_kept_policies_are_those_of_the_checkpoint(tmp_path: Path) -> None:
     }
 
 
-def test_a_disk_that_refuses_is_one_line_and_leaves_nothing_half_begun(
+def test_a_full_disk_is_reported_and_leaves_no_half_begun_checkpoint(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     folder = RunFolder.new(tmp_path / "run", config_of())
@@ -143,7 +143,7 @@ DAMAGES: dict[str, Callable[[Arrays], object]] = {
 
 
 @pytest.mark.parametrize("says", DAMAGES)
-def test_policies_that_do_not_fit_are_one_line_that_names_the_file(says: str, tmp_path: Path) -> None:
+def test_damaged_policies_are_refused_with_the_checkpoints_file_name(says: str, tmp_path: Path) -> None:
     folder = begun(tmp_path)
     trainer = trainer_in(folder)
     folder.save(trainer, 1.0)

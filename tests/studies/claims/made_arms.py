@@ -20,7 +20,7 @@ OPTIMUM = 21.0
 
 
 def trial_of(scores: Sequence[float], steps_each: int = 100) -> list[Evaluated]:
-    """Return a trial that was evaluated every 30 episodes, and had spent as much before each as before the others."""
+    """Return a trial that was evaluated every 30 episodes, at the same cost between evaluations."""
     return [
         Evaluated(
             episode=30 * number,

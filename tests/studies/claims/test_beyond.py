@@ -20,7 +20,7 @@ def verdicts(means: Means, trials: int = TRIALS, image_trials: int = TRIALS) -> 
 
 
 def as_the_paper_says(topic: str, name: str, count: int) -> float:
-    """Return everything as the paper hopes: above the optimum by the spread, so that every trial is at it."""
+    """Return a mean like the paper's hopes; some lie above the optimum, so that every trial reaches it."""
     if (topic, name) in {("images", "images"), ("parts", "tuned"), ("cooperation", "shared")}:
         return OPTIMUM + 0.5
     if name == "own":
@@ -29,14 +29,14 @@ def as_the_paper_says(topic: str, name: str, count: int) -> float:
     return leads[name]
 
 
-def test_every_claim_holds_where_all_is_as_the_paper_says() -> None:
+def test_every_claim_holds_on_arms_like_the_papers_hopes() -> None:
     found = verdicts(as_the_paper_says)
     numbers = {"j": 2, "k": 3, "l": 7, "m": 4}
     assert list(found) == [f"{letter}{number}" for letter, last in numbers.items() for number in range(1, last + 1)]
     assert set(found.values()) == {Verdict.HOLDS}
 
 
-def test_no_score_claim_holds_where_all_are_alike() -> None:
+def test_claims_of_a_lead_fail_or_stay_undecided_where_all_arms_are_alike() -> None:
     found = verdicts(lambda *_: 15.0)
     assert found["l7"] is Verdict.HOLDS
     assert found["j2"] is Verdict.HOLDS
@@ -47,7 +47,7 @@ def test_no_score_claim_holds_where_all_are_alike() -> None:
 
 
 @pytest.mark.parametrize("other", ["hierarchical", "single"])
-def test_a_lead_that_shrinks_speaks_against_its_growing_on_that_agent_alone(other: str) -> None:
+def test_a_shrinking_lead_fails_the_claims_about_that_agent_alone(other: str) -> None:
     def means(topic: str, name: str, count: int) -> float:
         return 10.0 + count if topic == "materials" and name == other else 10.0
 
@@ -57,7 +57,7 @@ def test_a_lead_that_shrinks_speaks_against_its_growing_on_that_agent_alone(othe
         assert {found[letter] for letter in own} == {Verdict.FAILS if agent == other else Verdict.UNDECIDED}
 
 
-def test_images_behind_by_more_than_a_block_on_one_design_are_behind() -> None:
+def test_images_behind_by_more_than_a_block_on_one_design_fail_their_claim() -> None:
     arms = whole(trials=TRIALS, image_trials=TRIALS)
     low = arm("images", "images", [trial_of([12.0 + 0.1 * trial] * 3) for trial in range(TRIALS)], "zigzag")
     arms[low.key] = low
@@ -66,17 +66,17 @@ def test_images_behind_by_more_than_a_block_on_one_design_are_behind() -> None:
     assert [line.verdict for line in claim.findings] == [Verdict.HOLDS, Verdict.FAILS, Verdict.HOLDS]
 
 
-def test_three_trials_of_images_decide_nothing() -> None:
+def test_three_trials_of_images_leave_their_claim_undecided() -> None:
     assert verdicts(as_the_paper_says, image_trials=3)["j1"] is Verdict.UNDECIDED
 
 
-def test_a_single_trial_is_not_tested() -> None:
+def test_a_single_trial_leaves_every_tested_claim_undecided() -> None:
     found = verdicts(as_the_paper_says, trials=1, image_trials=1)
     assert found.pop("l7") is Verdict.HOLDS
     assert set(found.values()) == {Verdict.UNDECIDED}
 
 
-def test_networks_that_do_not_grow_speak_against_it() -> None:
+def test_networks_that_do_not_grow_fail_their_claim() -> None:
     arms = whole(trials=TRIALS)
     for count in (2, 4, 8):
         same = arm("materials", "hierarchical", [trial_of([3.0] * 3)] * 2, f"line, {count} materials", count, 3)
@@ -84,7 +84,7 @@ def test_networks_that_do_not_grow_speak_against_it() -> None:
     assert next(each for each in judge_beyond(arms) if each.claim.letter == "l7").verdict is Verdict.FAILS
 
 
-def test_the_budget_is_what_the_poorest_trial_of_any_number_of_materials_had() -> None:
+def test_the_equal_budget_is_that_of_the_poorest_trial_of_any_number_of_materials() -> None:
     arms = whole()
     assert equal_budget(of_topic(arms, "materials"), "steps") == 1200
     poor = arm("materials", "single", [trial_of([3.0] * 12), trial_of([3.0] * 7)], "line, 8 materials", 8, 1)
@@ -93,8 +93,8 @@ def test_the_budget_is_what_the_poorest_trial_of_any_number_of_materials_had() -
     assert equal_budget(of_topic(arms, "materials"), "updates") == 630
 
 
-def test_a_third_agents_budget_does_not_cut_a_contest() -> None:
-    """Hierarchical is behind at the end alone: seen, however few steps the single agent had."""
+def test_a_third_agents_budget_does_not_limit_the_contest_of_two_others() -> None:
+    """Hierarchical falls behind only at the end, which counts however few steps the single agent had."""
     arms = whole(trials=TRIALS)
     for count in (2, 8):
         late = [trial_of([15.0] * 2 + [15.0 - count + 0.1 * trial] * 10) for trial in range(TRIALS)]
@@ -107,6 +107,6 @@ def test_a_third_agents_budget_does_not_cut_a_contest() -> None:
     assert (found["l3"], found["l4"]) == (Verdict.UNDECIDED, Verdict.UNDECIDED)
 
 
-def test_all_but_what_is_counted_says_how_many_trials_would_decide_it() -> None:
+def test_every_claim_but_the_counted_one_gives_an_effect() -> None:
     for judged in judge_beyond(whole(as_the_paper_says, TRIALS)):
         assert all(line.effect for line in judged.claim.evidence) == (judged.claim.letter != "l7")

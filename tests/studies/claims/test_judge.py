@@ -29,7 +29,7 @@ def solved(*final_scores: float) -> list[Trial]:
     return [Trial(5, score) for score in final_scores]
 
 
-def test_results_like_the_papers_confirm_its_claims() -> None:
+def test_results_like_the_papers_confirm_its_claims_except_two_about_cost() -> None:
     assert verdicts(made(the_papers())) == {
         **dict.fromkeys(["a1", "a2", "a3", "b", "c1", "c2", "c3", "c4", "d1", "d2", "e1"], HOLDS),
         "e2": FAILS,  # the single agent has one network
@@ -51,14 +51,14 @@ def test_results_like_the_papers_confirm_its_claims() -> None:
         (scattered(19, early=11), UNDECIDED, UNDECIDED),
     ],
 )
-def test_nested_is_ahead_on_the_line_early_and_at_the_end_each_by_itself(
+def test_early_and_final_leads_on_the_line_are_judged_separately(
     hierarchical: list[Trial], early: Verdict, final: Verdict
 ) -> None:
     found = verdicts(made({("nested", "line"): level(20, early=12), ("hierarchical", "line"): hierarchical}))
     assert (found["a1"], found["a2"], found["a3"]) == (early, final, final)
 
 
-def test_the_last_evaluation_and_the_mean_of_the_last_ten_can_say_otherwise() -> None:
+def test_the_last_evaluation_and_the_mean_of_the_last_ten_can_differ_in_verdict() -> None:
     results = made({("nested", "line"): level(20), ("hierarchical", "line"): level(17)})
 
     def ending(agent: str, last: float) -> Results:
@@ -87,7 +87,9 @@ def test_the_last_evaluation_and_the_mean_of_the_last_ten_can_say_otherwise() ->
         (scattered(16), UNDECIDED),
     ],
 )
-def test_alike_is_within_a_block_early_and_at_the_end(hierarchical: list[Trial], verdict: Verdict) -> None:
+def test_agents_count_as_alike_within_a_block_both_early_and_at_the_end(
+    hierarchical: list[Trial], verdict: Verdict
+) -> None:
     results = made(
         {
             ("nested", "zigzag"): solved(*[16.0] * 6),
@@ -103,7 +105,7 @@ def test_alike_is_within_a_block_early_and_at_the_end(hierarchical: list[Trial],
     ("single", "verdict"),
     [(level(9), HOLDS), (level(18), FAILS), (level(23), FAILS), (scattered(17), UNDECIDED)],
 )
-def test_single_is_below_both_on_every_scenario(single: list[Trial], verdict: Verdict) -> None:
+def test_claims_that_single_is_below_both_agents_follow_singles_scores(single: list[Trial], verdict: Verdict) -> None:
     found = verdicts(made({**the_papers("diamond"), ("single", "diamond"): single}))
     assert [found[letter] for letter in ("c1", "c2", "c3", "c4")] == [verdict] * 4
 
@@ -116,7 +118,7 @@ def test_one_agent_can_be_above_single_and_the_other_not() -> None:
 @pytest.mark.parametrize(
     ("early", "verdict"), [(2.0, HOLDS), (12.0, FAILS), (15.0, FAILS)], ids=["behind", "level", "ahead"]
 )
-def test_nested_is_ahead_of_single_early(early: float, verdict: Verdict) -> None:
+def test_the_claim_of_an_early_lead_over_single_follows_singles_early_scores(early: float, verdict: Verdict) -> None:
     agents = {("nested", "line"): level(20, early=12), ("single", "line"): level(13, early=early)}
     assert verdicts(made(agents))["g"] is verdict
 
@@ -129,16 +131,18 @@ def test_nested_is_ahead_of_single_early(early: float, verdict: Verdict) -> None
         (level(16, spread=1.5), UNDECIDED),  # just as the hierarchical agent's
     ],
 )
-def test_nested_spreads_less_than_hierarchical(nested: list[Trial], verdict: Verdict) -> None:
+def test_the_claim_of_less_spread_than_hierarchical_follows_nesteds_spread(
+    nested: list[Trial], verdict: Verdict
+) -> None:
     assert verdicts(made({**the_papers("zigzag"), ("nested", "zigzag"): nested}))["d1"] is verdict
 
 
-def test_nested_can_spread_less_than_one_and_not_than_the_other() -> None:
+def test_nested_can_spread_less_than_single_but_not_less_than_hierarchical() -> None:
     found = verdicts(made({**the_papers("zigzag"), ("nested", "zigzag"): level(16, spread=1.75)}))
     assert (found["d1"], found["d2"]) == (FAILS, HOLDS)  # 1.5 of hierarchical, 2 of single
 
 
-def test_the_measured_figures_and_their_interval_stand_beside_the_verdict() -> None:
+def test_findings_give_the_measured_figures_and_their_interval() -> None:
     results = made(the_papers("line"))
     (early,), (final,) = (judged_claim(letter, results).findings for letter in ("a1", "a2"))
     assert early.evidence.figures == (("nested", 12), ("hierarchical", 7), ("difference", 5))
@@ -148,7 +152,7 @@ def test_the_measured_figures_and_their_interval_stand_beside_the_verdict() -> N
     assert 2.75 <= final.evidence.interval.low < 3 < final.evidence.interval.high <= 3.25
 
 
-def test_every_line_of_a_claim_passes_by_its_own_p() -> None:
+def test_each_line_of_a_claim_is_decided_by_its_own_p_value() -> None:
     # 1 of 924 splits each: nothing is multiplied, though there are six of (b) and many claims.
     held = judged_claim("b", made(the_papers()))
     assert len(held.findings) == 6
@@ -162,7 +166,7 @@ def test_costs_are_counted_once_for_scenarios_that_cost_the_same() -> None:
     assert networks.evidence.what == "line, zigzag, diamond, networks of a trial"
 
 
-def test_nested_is_not_cheaper_where_it_needs_as_much() -> None:
+def test_the_cost_claim_fails_where_nested_needs_as_many_parameters() -> None:
     results = made(the_papers())
     dear = {
         (agent, scenario): cost._replace(parameters=4_500) if scenario == "diamond" else cost
@@ -179,7 +183,9 @@ def test_nested_is_not_cheaper_where_it_needs_as_much() -> None:
         (solved(*[26.0] * 6, *[25.0] * 4), UNDECIDED),
     ],
 )
-def test_more_episodes_bring_a_trial_to_the_optimum_more_often_than_not(diamond: list[Trial], verdict: Verdict) -> None:
+def test_the_claim_about_more_episodes_follows_the_share_of_trials_at_the_optimum(
+    diamond: list[Trial], verdict: Verdict
+) -> None:
     long = {
         ("nested", "zigzag"): solved(*[21.0] * 10),
         ("hierarchical", "zigzag"): solved(*[21.0] * 10),
@@ -204,7 +210,7 @@ def test_two_trials_are_too_few_for_any_verdict() -> None:
     assert {verdicts(results)[letter] for letter in TESTED} == {UNDECIDED}
 
 
-def test_one_scenario_counts_in_the_claims_that_it_is_part_of() -> None:
+def test_one_scenario_alone_counts_in_the_claims_about_that_scenario() -> None:
     assert verdicts(made(the_papers("zigzag"))) == {
         **dict.fromkeys(["a1", "a2", "a3", "f"], NOT_RUN),
         "b": UNDECIDED,  # the diamond is missing
@@ -227,7 +233,7 @@ def test_one_agent_alone_counts_in_no_claim() -> None:
     assert set(verdicts(results).values()) == {NOT_RUN}
 
 
-def test_a_training_without_evaluations_is_undecided_not_an_error() -> None:
+def test_a_training_without_evaluations_leaves_claims_undecided() -> None:
     results = made(the_papers())
     nothing = {
         key: replace(curve, episodes=np.zeros(0, dtype=np.int64), scores=np.zeros((6, 0)))

@@ -7,7 +7,7 @@ from torch import nn
 from mc_nested.learn.dqn.compiled_engine.adam import adam_step
 
 
-def test_steps_are_those_of_torchs_adam() -> None:
+def test_adam_step_matches_torchs_adam() -> None:
     random = np.random.default_rng(0)
     ours = random.standard_normal(50).astype(np.float32)
     theirs = nn.Parameter(torch.from_numpy(ours.copy()))

@@ -1,4 +1,4 @@
-"""The passes of networks that see one cell among many: those of the same networks fed with every input."""
+"""Networks that see one cell among many compute the same as networks fed with every input."""
 
 import numpy as np
 import pytest
@@ -57,7 +57,7 @@ def passed(space: StateSpace, sizes: Sizes) -> tuple[CellPasses, Float32s]:
     return passes, gradient
 
 
-def test_weights_ordered_by_input_and_by_node_again_are_the_same() -> None:
+def test_reordering_weights_by_input_and_back_by_node_restores_them() -> None:
     sizes = (3, 2, 2, 1)  # the first layer: 2 nodes of 3 inputs and a bias
     parameters = np.arange(parameter_count(sizes), dtype=np.float32)
     turned = parameters.copy()
@@ -70,7 +70,7 @@ def test_weights_ordered_by_input_and_by_node_again_are_the_same() -> None:
 
 @pytest.mark.parametrize("hidden", HIDDEN, ids=["two layers", "three layers"])
 @pytest.mark.parametrize("space", SPACES, ids=IDS)
-def test_values_and_gradients_are_those_of_the_same_network_on_all_inputs(
+def test_cell_passes_match_the_values_and_gradients_of_a_network_fed_with_every_input(
     space: StateSpace, hidden: tuple[int, ...]
 ) -> None:
     sizes = space.network(hidden)
@@ -88,7 +88,7 @@ def test_values_and_gradients_are_those_of_the_same_network_on_all_inputs(
 
 @pytest.mark.parametrize("hidden", HIDDEN, ids=["two layers", "three layers"])
 @pytest.mark.parametrize("space", SPACES, ids=IDS)
-def test_values_and_gradients_are_those_of_autograd(space: StateSpace, hidden: tuple[int, ...]) -> None:
+def test_cell_passes_match_the_values_and_gradients_of_autograd(space: StateSpace, hidden: tuple[int, ...]) -> None:
     sizes = space.network(hidden)
     parameters, states, slope = drawn(space, sizes)
     leaf = torch.from_numpy(parameters.copy()).requires_grad_()
@@ -101,7 +101,7 @@ def test_values_and_gradients_are_those_of_autograd(space: StateSpace, hidden: t
     np.testing.assert_allclose(gradient, leaf.grad.numpy(), rtol=1e-3, atol=5e-5)
 
 
-def test_a_cell_that_no_state_of_the_batch_stands_in_has_no_gradient() -> None:
+def test_only_cells_visited_in_the_batch_have_a_gradient() -> None:
     space = SPACES[0]
     sizes = space.network((6, 5))
     _, states, _ = drawn(space, sizes)
@@ -110,7 +110,7 @@ def test_a_cell_that_no_state_of_the_batch_stands_in_has_no_gradient() -> None:
     assert set(np.flatnonzero(gradient[:, : space.cells].any(axis=0))) == set(visited.tolist())
 
 
-def test_the_values_of_one_state_are_those_it_has_in_a_batch() -> None:
+def test_a_state_has_the_same_values_alone_and_in_a_batch() -> None:
     space = SPACES[0]
     sizes = space.network((6, 5))
     parameters, states, _ = drawn(space, sizes)

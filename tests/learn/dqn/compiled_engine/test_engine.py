@@ -20,19 +20,19 @@ from tests.learn.dqn.made_engines import RULE, batch_of, part, space_of
 SIZES = (4, 32, 32, 8)
 
 
-def test_the_target_takes_the_online_networks_choice_and_the_target_networks_value() -> None:
+def test_double_dqn_target_takes_the_target_networks_value_of_the_online_networks_choice() -> None:
     # The online network prefers action 1; plain DQN would take the target network's own best, action 2:
     # 1 + 0.5 · 7 = 4.5. Double DQN takes the target network's value of action 1 (paper, equation 4).
     online, target = np.array([[2.0], [5.0], [3.0]], np.float32), np.array([1.0, 4.0, 7.0], np.float32)
     assert td_target(1.0, 0.5, target[greedy_of(online)[0]]) == 1.0 + 0.5 * 4.0
 
 
-def test_a_terminated_transition_is_worth_its_reward_alone() -> None:
+def test_td_target_is_the_reward_plus_the_discounted_next_value() -> None:
     assert td_target(1.0, 0.0, 9.0) == 1.0
     assert td_target(0.0, 0.95, -2.0) == pytest.approx(-1.9)
 
 
-def test_the_greedy_action_of_a_state_is_the_first_of_the_highest_value() -> None:
+def test_the_first_of_several_highest_values_is_the_greedy_action() -> None:
     assert greedy_of(np.array([[1.0, 4.0], [3.0, 4.0], [3.0, -1.0]], np.float32)).tolist() == [1, 0]
 
 
@@ -54,7 +54,7 @@ def learners(rows: int, rule: UpdateRule = RULE) -> CompiledEngine:
 
 @pytest.mark.parametrize("rows", [1, 4])
 @pytest.mark.parametrize("tabulated", [True, False])
-def test_updates_are_those_of_torchs_adam_on_the_huber_and_the_large_margin_loss(rows: int, tabulated: bool) -> None:
+def test_updates_match_torchs_adam_on_the_huber_and_large_margin_losses(rows: int, tabulated: bool) -> None:
     ours = learners(rows, RULE._replace(target_period=1000) if tabulated else RULE)
     assert bool(ours._target_values.values.size) is tabulated
     ours.rule = RULE
@@ -96,7 +96,7 @@ def _reference_update(
     return np.array((chosen - goal).detach().numpy())
 
 
-def test_values_of_a_batch_alone_are_those_of_the_table_of_all_states() -> None:
+def test_updates_are_the_same_with_and_without_a_table_of_target_values() -> None:
     tabulated, by_batch = (learners(2, RULE._replace(target_period=period)) for period in (1000, 3))
     assert tabulated._target_values.values.size
     assert not by_batch._target_values.values.size
@@ -123,7 +123,7 @@ def test_a_row_learns_the_same_to_the_bit_beside_others_and_alone() -> None:
         np.testing.assert_array_equal(alone.state()[name][0], kept[3])
 
 
-def test_rows_of_other_scenarios_take_their_own_features() -> None:
+def test_each_row_scales_states_by_its_own_scenario() -> None:
     space = StateSpace(np.array([[14, 14, 11, 1], [14, 14, 16, 1]]), actions=8)
     same = initial_parameters(SIZES, np.random.default_rng(0))
     both = CompiledEngine(space, SIZES, RULE, np.stack([same, same]))
@@ -135,12 +135,12 @@ def test_rows_of_other_scenarios_take_their_own_features() -> None:
     np.testing.assert_allclose(values[1], expected, rtol=1e-5, atol=1e-6)
 
 
-def test_a_batch_of_another_width_is_refused() -> None:
+def test_a_batch_of_the_wrong_size_is_refused() -> None:
     with pytest.raises(ValueError, match=r"batches of \(1, 32\), not \(1, 64\)"):
         learners(1, RULE._replace(batch=64)).update(np.arange(1), batch_of(1, seed=0))
 
 
-def test_q_values_are_the_online_networks() -> None:
+def test_q_values_come_from_each_rows_online_network() -> None:
     engine = learners(3)
     states = np.array([5, 77, 1234])
     features = torch.from_numpy(engine.space.features_of(0)[states, :-1])
@@ -150,7 +150,7 @@ def test_q_values_are_the_online_networks() -> None:
     np.testing.assert_allclose(some, np.stack([expected[2], expected[0]]), rtol=1e-5, atol=1e-6)
 
 
-def test_loss_and_value_are_those_of_each_rows_last_update() -> None:
+def test_each_row_reports_the_loss_and_q_value_of_its_last_update() -> None:
     engine = learners(2)
     batch = batch_of(1, 3)._replace(weights=np.ones((1, 32), np.float32))
     states, actions = batch.states[0], batch.actions
@@ -165,7 +165,7 @@ def test_loss_and_value_are_those_of_each_rows_last_update() -> None:
 
 @pytest.mark.parametrize("value", [np.nan, np.inf, -np.inf])
 @pytest.mark.parametrize("place", [0, 500, -1])
-def test_nan_and_infinity_are_noticed_wherever_they_are(value: float, place: int) -> None:
+def test_all_finite_notices_nan_and_infinity_at_any_position(value: float, place: int) -> None:
     values = np.random.default_rng(0).standard_normal(1480).astype(np.float32)
     values[:3] = 0.0, -0.0, np.finfo(np.float32).max
     assert all_finite(values)
@@ -173,7 +173,7 @@ def test_nan_and_infinity_are_noticed_wherever_they_are(value: float, place: int
     assert not all_finite(values)
 
 
-def test_a_row_is_handed_out_without_a_copy() -> None:
+def test_row_returns_views_of_the_engines_arrays() -> None:
     engine, same = learners(3), learners(3)
     for each in (engine, same):
         each.update(np.arange(3), batch_of(3, 1))
@@ -188,7 +188,7 @@ def test_a_row_is_handed_out_without_a_copy() -> None:
 
 
 @pytest.mark.parametrize("value", [np.nan, np.inf])
-def test_a_row_that_something_else_updated_is_checked_by_itself(value: float) -> None:
+def test_check_finite_raises_for_the_diverged_row_alone(value: float) -> None:
     engine = learners(3)
     engine.row(1)[0][5] = value
     engine.check_finite(0)

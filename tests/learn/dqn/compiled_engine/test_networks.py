@@ -24,7 +24,7 @@ def test_the_papers_network_has_1480_parameters() -> None:
     assert parameter_count((4, 32, 32, 8)) == 160 + 1056 + 264
 
 
-def test_initial_parameters_are_uniform_within_one_over_root_of_the_inputs() -> None:
+def test_initial_parameters_are_uniform_within_one_over_the_root_of_the_input_count() -> None:
     flat = initial_parameters((100, 400, 2), np.random.default_rng(0))
     first, last = flat[: 101 * 400], flat[101 * 400 :]
     assert np.abs(first).max() <= 0.1
@@ -34,7 +34,7 @@ def test_initial_parameters_are_uniform_within_one_over_root_of_the_inputs() -> 
 
 
 @given(st.lists(st.floats(-30, 30, width=32), min_size=1, max_size=40))
-def test_tanh_is_right_to_the_last_bits(values: list[float]) -> None:
+def test_tanh_is_accurate_to_the_last_bits(values: list[float]) -> None:
     array = np.array([values], np.float32)
     expected = np.tanh(array.astype(np.float64))
     tanh_in_place(array)
@@ -62,7 +62,7 @@ def columns(inputs: Tensor) -> Float32s:
 
 
 @pytest.mark.parametrize("sizes", [(4, 32, 32, 8), (3, 5, 2), (2, 6, 5, 4, 3)])
-def test_values_and_gradients_are_those_of_autograd(sizes: Sizes) -> None:
+def test_values_and_gradients_match_autograd(sizes: Sizes) -> None:
     batch = 7
     random = torch.Generator().manual_seed(1)
     parameters = torch.randn(parameter_count(sizes), generator=random)

@@ -23,7 +23,7 @@ SIZES = st.integers(2, 40)
 
 
 def product(a: Float32s, b: Float32s) -> Float32s:
-    """Return the product, written between two columns that must stay as they are.
+    """Return the product of both matrices, and check that nothing is written beside it.
 
     All three are parts of larger arrays: compiled once for all that lie so, and in seconds for each other layout.
     """
@@ -34,7 +34,7 @@ def product(a: Float32s, b: Float32s) -> Float32s:
 
 
 def part(matrix: Float32s) -> Float32s:
-    """Return the same matrix, which lies by rows or by columns, as a part of a larger one.
+    """Return the matrix, in its own memory layout, as a part of a larger one.
 
     The rest is not to be read.
     """
@@ -48,7 +48,7 @@ def part(matrix: Float32s) -> Float32s:
 
 
 @pytest.mark.parametrize("shape", [(1, 20, 33), (9, 1, 33), (9, 20, 1), (1, 1, 1)], ids=str)
-def test_one_row_one_term_and_one_column_are_matrices_too(shape: tuple[int, int, int]) -> None:
+def test_multiply_takes_matrices_of_one_row_one_term_or_one_column(shape: tuple[int, int, int]) -> None:
     rows, terms, columns = shape
     random = np.random.default_rng(1)
     a, b = (random.standard_normal(each).astype(np.float32) for each in ((rows, terms), (terms, columns)))
@@ -58,7 +58,7 @@ def test_one_row_one_term_and_one_column_are_matrices_too(shape: tuple[int, int,
 
 
 @given(SIZES, SIZES, SIZES, st.booleans(), st.booleans())
-def test_it_is_the_product_whatever_the_shape_and_however_the_matrices_lie(
+def test_multiply_gives_the_product_for_any_shape_and_memory_layout(
     rows: int, terms: int, columns: int, a_turned: bool, b_turned: bool
 ) -> None:
     random = np.random.default_rng([rows, terms, columns])
@@ -68,7 +68,7 @@ def test_it_is_the_product_whatever_the_shape_and_however_the_matrices_lie(
     np.testing.assert_allclose(found, a @ b, rtol=0, atol=2e-5)
 
 
-def test_it_takes_parts_of_larger_matrices() -> None:
+def test_multiply_takes_parts_of_larger_matrices() -> None:
     random = np.random.default_rng(0)
     a, b = (random.standard_normal((50, 50)).astype(np.float32) for _ in range(2))
     expected = a[3:12, 5:25].astype(np.float64) @ b[7:27, 1:34].astype(np.float64)
@@ -77,7 +77,7 @@ def test_it_takes_parts_of_larger_matrices() -> None:
 
 @pytest.mark.skipif(not IN_PYTHON, reason="compiled code checks no bounds")
 @pytest.mark.parametrize(("row", "column", "to"), [(1, 0, (0, 0)), (0, 1, (0, 0)), (0, 0, (1, 0)), (0, 0, (0, 1))])
-def test_in_plain_python_a_tile_beyond_a_matrix_is_an_error(row: int, column: int, to: tuple[int, int]) -> None:
+def test_multiplying_a_tile_beyond_a_matrix_raises_in_plain_python(row: int, column: int, to: tuple[int, int]) -> None:
     a, b, out = (np.zeros(shape, np.float32) for shape in ((ROWS, 2), (2, WIDTH), (ROWS, WIDTH)))
     multiply_rows(a, 0, b, 0, out, (0, 0))
     with pytest.raises(IndexError):
@@ -86,7 +86,7 @@ def test_in_plain_python_a_tile_beyond_a_matrix_is_an_error(row: int, column: in
 
 @pytest.mark.skipif(not IN_PYTHON, reason="compiled code checks no bounds")
 @pytest.mark.parametrize(("at", "to"), [((1, 0), (0, 0)), ((0, 1), (0, 0)), ((0, 0), (1, 0)), ((0, 0), (0, 1))])
-def test_in_plain_python_a_block_beyond_a_matrix_is_an_error(at: tuple[int, int], to: tuple[int, int]) -> None:
+def test_transposing_a_block_beyond_a_matrix_raises_in_plain_python(at: tuple[int, int], to: tuple[int, int]) -> None:
     matrix = np.arange(SIDE * SIDE, dtype=np.float32).reshape(SIDE, SIDE)
     turned = np.zeros_like(matrix)
     transpose_block(matrix, (0, 0), turned, (0, 0))
@@ -96,7 +96,7 @@ def test_in_plain_python_a_block_beyond_a_matrix_is_an_error(at: tuple[int, int]
 
 
 @pytest.mark.skipif(not IN_PYTHON, reason="compiled code checks no bounds")
-def test_in_plain_python_a_sum_beyond_a_row_is_an_error() -> None:
+def test_summing_beyond_a_row_raises_in_plain_python() -> None:
     ones = np.ones((1, LANES), np.float32)
     assert sum_in_lanes(ones, 0, ones, LANES) == LANES
     with pytest.raises(IndexError):

@@ -11,7 +11,7 @@ from tests.learn.dqn.compiled_engine.test_networks import reference
 SIZES = (3, 4, 4, 8)
 
 
-def test_every_state_has_its_networks_value_and_only_named_rows_are_renewed() -> None:
+def test_the_table_holds_every_states_target_values_and_renews_named_rows_only() -> None:
     space = StateSpace(np.array([[14, 14, 2], [14, 14, 1]]), actions=8)
     assert space.count > 2 * AT_ONCE, "more than one part, the last not full"
     assert space.count % AT_ONCE
@@ -29,14 +29,14 @@ def test_every_state_has_its_networks_value_and_only_named_rows_are_renewed() ->
     np.testing.assert_allclose(found.values[1], expected(1, 2), rtol=1e-4, atol=1e-5)
 
 
-def test_a_table_pays_where_a_period_values_as_many_states_in_its_batches() -> None:
+def test_a_table_pays_up_to_as_many_states_as_a_target_period_draws() -> None:
     assert table_pays(15 * 15 * 17 * 2, batch=32, target_period=500), "the paper's and the shipped presets'"
     assert table_pays(16_000, batch=32, target_period=500)
     assert not table_pays(16_001, batch=32, target_period=500)
     assert not table_pays(15 * 15 * 101 * 8, batch=32, target_period=500), "a hundred blocks, eight materials"
 
 
-def test_without_a_table_nothing_is_kept_or_renewed() -> None:
+def test_target_values_without_a_table_keep_nothing() -> None:
     space = StateSpace(np.array([[14, 14, 100, 7]]), actions=8)
     target = initial_parameters((4, 4, 4, 8), np.random.default_rng(0))[None]
     found = TargetValues(space, (4, 4, 4, 8), target, tabulated=False)

@@ -1,4 +1,4 @@
-"""Networks as somebody brings them: one that fits, and some that don't."""
+"""Networks as a user may bring them: one that fits, and some that don't."""
 
 import sys
 
@@ -29,7 +29,7 @@ def for_pictures(shape: tuple[int, ...], actions: int) -> nn.Module:
 
 
 class Fails(nn.Module):
-    """It fails whenever it is asked."""
+    """A network that fails whenever it is called."""
 
     def forward(self, _: Tensor) -> Tensor:
         raise RuntimeError("no idea\nat all")
@@ -41,7 +41,7 @@ def fails(shape: tuple[int, ...], actions: int) -> nn.Module:  # noqa: ARG001 - 
 
 
 class Halves(nn.Linear):
-    """It gives floats of 16 bits."""
+    """A network that gives floats of 16 bits."""
 
     def forward(self, states: Tensor) -> Tensor:
         return super().forward(states).half()
@@ -53,7 +53,7 @@ def halves(shape: tuple[int, ...], actions: int) -> nn.Module:
 
 
 class ForTwo(nn.Linear):
-    """It takes two states, and no other number of them."""
+    """A network that takes exactly two states."""
 
     def forward(self, states: Tensor) -> Tensor:
         return super().forward(states.reshape(2, -1))
@@ -65,7 +65,7 @@ def for_two(shape: tuple[int, ...], actions: int) -> nn.Module:
 
 
 def without_parameters(shape: tuple[int, ...], actions: int) -> nn.Module:  # noqa: ARG001 - it takes any
-    """Make a network with nothing to train in it."""
+    """Make a network without parameters."""
     return nn.AdaptiveAvgPool1d(actions)
 
 
@@ -115,4 +115,4 @@ def frozen(shape: tuple[int, ...], actions: int) -> nn.Module:
 
 
 def nothing(shape: tuple[int, ...], actions: int) -> None:
-    """Make no module."""
+    """Return None instead of a module."""

@@ -1,4 +1,4 @@
-"""What only the torch engine does: planes, convolutions, devices."""
+"""Abilities that only the torch engine has: planes, convolutions, devices."""
 
 import numpy as np
 import pytest
@@ -34,7 +34,7 @@ def batch_of(rows: int, seed: int) -> Batch:
 
 
 @pytest.mark.parametrize("network", ["cnn", "mlp", "tests.learn.dqn.torch_engine.own_networks:pooled"])
-def test_it_learns_what_terminal_rewards_of_images_are_worth(network: str) -> None:
+def test_the_torch_engine_learns_the_values_of_terminal_rewards_from_images(network: str) -> None:
     engine, batch = engine_of(1, network), batch_of(1, 0)
     for _ in range(300):
         errors = engine.update(np.array([0]), batch)
@@ -43,7 +43,7 @@ def test_it_learns_what_terminal_rewards_of_images_are_worth(network: str) -> No
     assert values[0, batch.actions[0, 0]] == pytest.approx(batch.rewards[0, 0], abs=0.05)
 
 
-def test_a_row_learns_beside_others_as_alone() -> None:
+def test_a_row_learns_the_same_alone_and_beside_another() -> None:
     both, alone = engine_of(2), engine_of(1)
     for update in range(5):
         batch = batch_of(2, update)
@@ -52,7 +52,7 @@ def test_a_row_learns_beside_others_as_alone() -> None:
     np.testing.assert_allclose(both.online[0], alone.online[0], rtol=1e-5, atol=1e-7)
 
 
-def test_planes_are_seen_from_0_to_1() -> None:
+def test_networks_see_planes_scaled_to_between_0_and_1() -> None:
     engine = engine_of(1, "mlp")
     engine.load_online(np.eye(1, engine.online.shape[1], dtype=np.float32))  # the first node sees the first input alone
     full, empty = np.zeros((2, 1, *SHAPE), np.uint8)

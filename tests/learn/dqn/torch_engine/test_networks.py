@@ -1,4 +1,4 @@
-"""The networks that a preset names: their shapes, their first parameters, and somebody's own."""
+"""The networks that a preset names: their shapes, their initial parameters, and a user's own."""
 
 from pathlib import Path
 
@@ -19,7 +19,7 @@ def streams(count: int) -> list[np.random.Generator]:
     return [np.random.default_rng(row) for row in range(count)]
 
 
-def test_an_mlp_begins_as_that_of_the_compiled_engine() -> None:
+def test_an_mlp_has_the_same_initial_parameters_as_in_the_compiled_engine() -> None:
     make = network_maker("mlp", [32, 32])
     form = form_of("mlp", (4,), [32, 32], 8)
     assert form == NetworkForm("mlp", (4, 32, 32, 8))
@@ -29,7 +29,7 @@ def test_an_mlp_begins_as_that_of_the_compiled_engine() -> None:
 
 
 @pytest.mark.parametrize("shape", [(5, 5, 5), (5, 15, 15), (5, 32, 32), (5, 84, 84)])
-def test_a_cnn_gives_a_value_an_action_for_any_arena_and_for_pictures(shape: tuple[int, ...]) -> None:
+def test_a_cnn_gives_one_value_per_action_for_arenas_and_pictures_of_any_size(shape: tuple[int, ...]) -> None:
     assert cnn(shape, [64], 8)(torch.zeros(3, *shape)).shape == (3, 8)
 
 
@@ -39,7 +39,7 @@ def test_a_cnn_for_the_line_has_38728_parameters() -> None:
     assert flat_of(cnn((5, 15, 15), [64], 8)).size == parameters == 38_728
 
 
-def test_every_row_begins_by_its_own_generator_whatever_other_rows_there_are() -> None:
+def test_a_rows_initial_parameters_depend_on_its_own_generator_alone() -> None:
     make = network_maker("cnn", [8])
     form = form_of("cnn", (3, 9, 9), [8], 4)
     torch.manual_seed(5)
@@ -51,7 +51,7 @@ def test_every_row_begins_by_its_own_generator_whatever_other_rows_there_are() -
     assert torch.equal(torch.random.get_rng_state(), before), "the program's own random numbers go on as they were"
 
 
-def test_ones_own_network_is_found_by_module_and_name() -> None:
+def test_a_users_network_is_found_by_module_and_name() -> None:
     make = network_maker(f"{OWN}:pooled", [])
     assert make((3, 9, 9), 4)(torch.zeros(2, 3, 9, 9)).shape == (2, 4)
     assert form_of(f"{OWN}:pooled", (3, 9, 9), [32], 4) == NetworkForm(f"{OWN}:pooled", (3, 9, 9, 4))

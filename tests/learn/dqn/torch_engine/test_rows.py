@@ -24,7 +24,7 @@ def rows_of(kind: str, stacks: bool) -> NetworkRows:
 
 @pytest.mark.parametrize("kind", ["cnn", "mlp"])
 @pytest.mark.parametrize("named", [[0, 1, 2], [2, 0], [1]])
-def test_stacked_rows_are_the_same_as_one_after_the_other(kind: str, named: list[int]) -> None:
+def test_stacked_rows_give_the_values_and_gradients_of_rows_computed_one_by_one(kind: str, named: list[int]) -> None:
     inputs = torch.rand(len(named), 5, *SHAPE, generator=torch.Generator().manual_seed(1))
     found = []
     for stacks in (True, False):
@@ -35,7 +35,7 @@ def test_stacked_rows_are_the_same_as_one_after_the_other(kind: str, named: list
         torch.testing.assert_close(stacked, one_by_one, rtol=1e-4, atol=1e-5)
 
 
-def test_a_rows_slope_is_of_its_own_values_alone() -> None:
+def test_a_rows_gradient_depends_on_its_own_values_alone() -> None:
     networks = rows_of("mlp", True)
     values, leaves = networks.values(np.arange(3), torch.ones(3, 2, *SHAPE))
     slope = networks.gradient(values, torch.tensor([0.0, 1.0, 0.0])[:, None, None].expand_as(values), leaves, 3)

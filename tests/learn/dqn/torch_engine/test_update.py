@@ -1,4 +1,4 @@
-"""The slopes by hand, against autograd's; Adam against torch's own, each row at a step of its own."""
+"""The slopes by hand, against autograd's; Adam against torch's own, each row at its own step."""
 
 import numpy as np
 import torch
@@ -12,7 +12,7 @@ RULE = UpdateRule(batch=4, learning_rate=1e-3, target_period=10, huber_delta=0.5
 
 
 @given(st.integers(0, 2**31))
-def test_hubers_slopes_are_autograds_of_torchs_huber_loss(seed: int) -> None:
+def test_huber_slopes_match_autograds_of_torchs_huber_loss(seed: int) -> None:
     random = torch.Generator().manual_seed(seed)
     values = torch.randn(2, 4, 3, generator=random).requires_grad_()
     taken = torch.randint(3, (2, 4, 1), generator=random)
@@ -26,7 +26,7 @@ def test_hubers_slopes_are_autograds_of_torchs_huber_loss(seed: int) -> None:
 
 
 @given(st.integers(0, 2**31))
-def test_the_margins_slopes_are_autograds_of_the_loss_of_what_is_imitated(seed: int) -> None:
+def test_margin_slopes_match_autograds_of_the_large_margin_loss(seed: int) -> None:
     random = torch.Generator().manual_seed(seed)
     values = torch.randn(2, 4, 3, generator=random).requires_grad_()
     taken = torch.randint(3, (2, 4, 1), generator=random)
@@ -45,7 +45,7 @@ def test_an_action_a_margin_ahead_of_all_others_has_no_slope() -> None:
     assert margin_slopes(values, taken, torch.ones(1, 4, dtype=torch.bool), RULE).abs().max() == 0.0
 
 
-def test_rows_at_other_steps_are_each_as_torchs_adam() -> None:
+def test_adam_matches_torchs_for_rows_at_different_steps() -> None:
     random = torch.Generator().manual_seed(0)
     first = torch.rand(2, 5, generator=random)
     ours, moments = first.clone(), (torch.zeros(2, 5), torch.zeros(2, 5))
