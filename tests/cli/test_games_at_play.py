@@ -10,7 +10,8 @@ from mc_nested.arena.env import ArenaEnv
 from mc_nested.arena.vector import ArenaVectorEnv
 from mc_nested.cli.games_at_play import GamesAtPlay, LastEpisode, blocks_of
 from mc_nested.errors import ClusterError
-from mc_nested.learn.games.episode import EpisodePlan, PlayedEpisode, play_episode
+from mc_nested.learn.games.episode import EpisodePlan, PlayedEpisode
+from mc_nested.learn.games.player import play_episode
 from mc_nested.workers.games.dask_games import Answered, GameEvent, Joined, Left, NameTaken, Unreachable
 from mc_nested.workers.games.messages import GameAnswer
 from sim.grid import GridGame

@@ -12,7 +12,8 @@ from mc_nested.arena.game import PlayLog
 from mc_nested.arrays import Int64s
 from mc_nested.errors import DesktopError, LiveError, NotInFrontError, UserError
 from mc_nested.learn.agents import Agent
-from mc_nested.learn.games.episode import PlayedEpisode, play_episode
+from mc_nested.learn.games.episode import PlayedEpisode
+from mc_nested.learn.games.player import play_episode
 from mc_nested.live.action_log import FailureBudget
 from mc_nested.workers.games.mailbox import Mailbox, Request
 from mc_nested.workers.games.messages import GameAnswer, GameSetup

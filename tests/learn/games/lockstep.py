@@ -6,8 +6,9 @@ from mc_nested.arena.env import ArenaEnv
 from mc_nested.arena.scenario import Scenario
 from mc_nested.arena.vector import ArenaVectorEnv
 from mc_nested.learn.agents import AGENT_SPECS, Agent
-from mc_nested.learn.games.episode import EpisodePlan, PlayedEpisode, play_episode
+from mc_nested.learn.games.episode import EpisodePlan, PlayedEpisode
 from mc_nested.learn.games.games_trainer import GamesTrainer
+from mc_nested.learn.games.player import play_episode
 from mc_nested.learn.preset import Preset
 from sim.grid import GridGame
 

@@ -6,6 +6,7 @@ counts is the clock of the game that brings the greedy evaluation at the optimum
 
 import heapq
 import statistics
+from typing import TYPE_CHECKING
 
 import pytest
 
@@ -16,10 +17,13 @@ from mc_nested.arena.scenario import Scenario
 from mc_nested.arena.scenario_file import load_scenario
 from mc_nested.arena.vector import ArenaVectorEnv
 from mc_nested.learn.agents import AGENT_SPECS, Agent
-from mc_nested.learn.games.episode import PlayedEpisode, play_episode
 from mc_nested.learn.games.games_trainer import GamesTrainer
+from mc_nested.learn.games.player import play_episode
 from mc_nested.learn.preset import load_preset
 from sim.grid import GridGame
+
+if TYPE_CHECKING:
+    from mc_nested.learn.games.episode import PlayedEpisode
 
 PRESET = load_preset("model-based")
 RESET_S, STEP_S = 6.0, 0.34
