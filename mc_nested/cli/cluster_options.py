@@ -20,7 +20,7 @@ KeysOption = Annotated[
     Path | None, typer.Option(metavar="DIR", help="this machine's keys, for tls:// (mc-nested train keys)")
 ]
 InsecureOption = Annotated[
-    bool, typer.Option("--insecure", help="speak plain TCP with another computer: in a network that is yours alone")
+    bool, typer.Option("--insecure", help="allow plain TCP to another computer; only in a network that is yours alone")
 ]
 
 FIRST_WORKER_S = 60.0

@@ -50,7 +50,7 @@ MOST_TRIALS = 1000
 """More would only run out of memory."""
 
 OPTIONS: Mapping[str, Any] = {
-    "trials": Annotated[int, typer.Option(min=1, max=MOST_TRIALS, help="of each arm on each design")],
+    "trials": Annotated[int, typer.Option(min=1, max=MOST_TRIALS, help="trials of each variant on each design")],
     "episodes": Annotated[int | None, typer.Option(min=1, max=MOST, help="episodes a trial, if not the preset's")],
     "seed": Annotated[int, typer.Option(min=0, help="the same seed gives the same results")],
     "scenario": ScenariosOption,
@@ -151,8 +151,8 @@ class Judged(Studied):
 
     claims: Annotated[
         Sequence[object],
-        "letter, claim and verdict of each; of robustness also choices, each with its verdict; of beyond also trials, "
-        "that would decide it, null of more than 1,000 or of what is counted",
+        "letter, claim and verdict of each; robustness adds choices, the verdict under each; beyond adds trials, how "
+        "many would decide it, or null for more than 1,000 and for what is counted",
     ]
 
 

@@ -90,7 +90,7 @@ def train(  # noqa: PLR0913 - a Typer verb: a parameter for each option
         typer.Option(help=f"the agent: {', '.join(AGENT_SPECS)}", autocompletion=complete_of(lambda: AGENT_SPECS)),
     ] = "nested",
     builders: Annotated[
-        int | None, typer.Option(help=f"let 1 to {MOST_BUILDERS} build in one simulated arena, not one agent alone")
+        int | None, typer.Option(help=f"let so many builders, 1 to {MOST_BUILDERS}, learn in one simulated arena")
     ] = None,
     start: Annotated[
         list[str] | None,
@@ -103,13 +103,13 @@ def train(  # noqa: PLR0913 - a Typer verb: a parameter for each option
     networks: Annotated[
         str | None,
         typer.Option(
-            help="of several builders; shared: one nested agent plays every builder; own: each has one of its own; "
+            help="how several builders learn; shared: one nested agent plays all; own: each has a nested agent; "
             "single: independent single agents",
             show_default=NETWORKS[0],
             autocompletion=complete_of(lambda: NETWORKS),
         ),
     ] = None,
-    backend: Annotated[Backend, typer.Option(help="where")] = Backend.SIM,
+    backend: Annotated[Backend, typer.Option(help="where it is played")] = Backend.SIM,
     preset: PresetOption = "paper",
     engine: EngineOption = None,
     device: DeviceOption = None,
@@ -179,8 +179,8 @@ def train(  # noqa: PLR0913 - a Typer verb: a parameter for each option
     team = _team(design, builders, start, networks)
     names_agent = is_given(context, "agent")
     if team and (names_agent or backend is not Backend.SIM):
-        wrong = "--agent: --networks says who they are" if names_agent else "--backend: they train in the simulator"
-        raise UserError(f"several builders don't go with {wrong}: leave it out")
+        option = "--agent" if names_agent else "--backend"
+        raise UserError(f"{option} doesn't go with --builders, --start and --networks: leave it out")
     config = RunConfig(
         agent=team.builders.agent if team else agent,
         backend=backend.value,

@@ -49,7 +49,7 @@ class Builders:
 def check_builders(preset: Preset) -> None:
     """Raise PresetError if the preset explores in a way, or sees what, builders in one arena can't."""
     if preset.states != NUMBERS:
-        raise PresetError(f"builders in one arena see numbers, not states {preset.states!r}: take the preset paper")
+        raise PresetError(f"several builders see numbers, not states {preset.states!r}: take the preset paper")
     for name, table in (("[excursions]", preset.excursions), ("[imagination]", preset.imagination)):
         if table:  # both replay a path, or imagine a game, in which nobody else acts
-            raise PresetError(f"{name} is for a builder alone: take the preset paper, or one with [explore_nested]")
+            raise PresetError(f"a preset with {name} is for one agent alone: take paper, or one with [explore_nested]")

@@ -110,7 +110,8 @@ class JobTraining:
         self.trainer = trainer
         self._spent = SpendingCount(len(job.trials))
         self._folder = folder
-        self._checkpoint = Checkpoint(folder / "checkpoint", job.identity())
+        anew = f"delete {folder}, and this job alone begins anew"
+        self._checkpoint = Checkpoint(folder / "checkpoint", job.identity(), anew)
         self._seconds_before = 0.0
         self._began = time.thread_time()
         if self._checkpoint.exists:

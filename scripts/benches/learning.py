@@ -189,9 +189,9 @@ def summary(rates: dict[str, list[float]], runs: Sequence[int], cores: int) -> F
 
 def add_options(parser: argparse.ArgumentParser) -> None:
     """Add the options, with their defaults."""
-    parser.add_argument("--runs", type=int, nargs="+", default=[1, 10, 30, MOST_RUNS])
-    parser.add_argument("--rounds", type=int, default=5)
-    parser.add_argument("--slice-s", type=float, default=2.0)
+    parser.add_argument("--runs", type=int, nargs="+", default=[1, 10, 30, MOST_RUNS], help="how many at once")
+    parser.add_argument("--rounds", type=int, default=5, help="each is measured so often, by turns")
+    parser.add_argument("--slice-s", type=float, default=2.0, help="seconds of a turn")
 
 
 def measure(options: argparse.Namespace) -> tuple[Figures, bool]:

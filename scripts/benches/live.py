@@ -183,8 +183,8 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         "--latency-ms", type=float, nargs=2, metavar=("LEAST", "MOST"), help="the age of a picture; calibrates the walk"
     )
     parser.add_argument("--version", default=VERSION, help="the game's")
-    parser.add_argument("--scenario", default="diamond")
-    parser.add_argument("--seed", type=int, default=0)
+    parser.add_argument("--scenario", default="diamond", help="what is built")
+    parser.add_argument("--seed", type=int, default=0, help="of all random numbers")
 
 
 def measure(options: argparse.Namespace) -> tuple[Figures, bool]:

@@ -160,7 +160,7 @@ def test_training_from_a_run_with_other_networks_is_refused(
     write_scenario(Path("small.toml"), SMALL)  # five cells a side, so that there are fewer inputs
     base = [] if other[0] == "--preset" else ["--preset", "model-based"]
     assert run("train", *base, *other, "--from", optimal, "--out", tmp_path / "new") == 2
-    assert "its networks don't fit this training: take its agent (nested), " in capsys.readouterr().err
+    assert "its networks don't fit this training: take --agent nested, " in capsys.readouterr().err
     assert not (tmp_path / "new").exists()
 
 

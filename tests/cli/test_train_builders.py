@@ -123,7 +123,7 @@ def test_training_from_a_team_run_has_its_policy_and_from_a_single_builders_run_
     assert float(table(tmp_path / "more" / "evaluations.csv")[0]["score"]) == best
     capsys.readouterr()
     assert run("train", "--from", trained, "--builders", "3", "--out", tmp_path / "other") == 2
-    assert "its networks don't fit this training" in capsys.readouterr().err
+    assert "its networks don't fit this training: take --agent nested, " in capsys.readouterr().err
 
 
 @pytest.mark.parametrize(
@@ -137,12 +137,12 @@ def test_training_from_a_team_run_has_its_policy_and_from_a_single_builders_run_
         (["--start", "7,a"], "--start '7,a' is no cell: name it as X,Y, like 7,14"),
         (["--builders", "3", "--start", "7,14"], "--builders 3 and 1 times --start: give each builder one start"),
         (["--networks", "many"], "no networks 'many': choose one of shared, own, single"),
-        (["--preset", "tuned"], "[excursions] is for a builder alone: take the preset paper, or one with"),
-        (["--preset", "model-based"], "[imagination] is for a builder alone"),
-        (["--preset", "image"], "builders in one arena see numbers, not states 'image'"),
+        (["--preset", "tuned"], "a preset with [excursions] is for one agent alone: take paper, or one with"),
+        (["--preset", "model-based"], "a preset with [imagination] is for one agent alone"),
+        (["--preset", "image"], "several builders see numbers, not states 'image'"),
         (["--scenario", "castle"], "castle"),
-        (["--agent", "single"], "several builders don't go with --agent: --networks says who they are: leave it out"),
-        (["--backend", "virtual"], "several builders don't go with --backend: they train in the simulator"),
+        (["--agent", "single"], "--agent doesn't go with --builders, --start and --networks: leave it out"),
+        (["--backend", "virtual"], "--backend doesn't go with --builders, --start and --networks: leave it out"),
         (
             ["--resume", "NEW", "--builders", "2"],
             "--resume goes on with the run's own config.toml: leave out --builders",

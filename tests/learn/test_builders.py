@@ -95,12 +95,12 @@ def test_shared_networks_learn_from_all_builders_and_own_networks_from_their_own
 def test_excursions_and_imagination_are_refused_for_several_builders(
     networks: Networks, preset: str, table: str
 ) -> None:
-    with pytest.raises(PresetError, match=rf"^\[{table}\] is for a builder alone: take the preset paper"):
+    with pytest.raises(PresetError, match=rf"^a preset with \[{table}\] is for one agent alone: take paper"):
         agent_of(networks, 2, preset=load_preset(preset))
 
 
 def test_image_states_are_refused_for_several_builders() -> None:
-    with pytest.raises(PresetError, match=r"^builders in one arena see numbers, not states 'image': take the preset"):
+    with pytest.raises(PresetError, match=r"^several builders see numbers, not states 'image': take the preset"):
         agent_of("shared", 2, preset=load_preset("image"))
 
 

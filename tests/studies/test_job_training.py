@@ -1,6 +1,7 @@
 """Jobs that train the same however they are cut and however often they are stopped, alone and with several builders."""
 
-import json
+import re
+import shutil
 from dataclasses import replace
 from pathlib import Path
 
@@ -75,16 +76,17 @@ def test_the_single_agents_replay_bytes_count_its_steps_alone(tmp_path: Path) ->
         assert run.replay_bytes == 13 * run.env_steps
 
 
-def test_an_outcome_of_an_earlier_version_is_read_without_replay_bytes(tmp_path: Path) -> None:
-    job = one_job("nested", [DOT], 1)
-    train(job, tmp_path)
-    written = json.loads((tmp_path / OUTCOME).read_text("utf-8"))
-    for run in written["runs"]:
-        del run["replay_bytes"]
-    (tmp_path / OUTCOME).write_text(json.dumps(written), "utf-8")
-    outcome = outcome_of(job, tmp_path)
-    assert outcome
-    assert outcome.runs[0].replay_bytes is None
+def test_a_job_with_a_damaged_checkpoint_begins_anew_once_its_folder_is_deleted(tmp_path: Path) -> None:
+    job, folder = one_job("nested", [DOT], 1), tmp_path / "007"
+    straight = train(job, tmp_path / "straight")
+    own = training(job, folder)
+    own.tick()
+    own.save()
+    next((folder / "checkpoint").glob("*.npz")).write_bytes(b"cut short")
+    with pytest.raises(RunError, match=f"damaged or cut short: delete {re.escape(str(folder))}, and this job alone"):
+        training(job, folder)
+    shutil.rmtree(folder)
+    assert train(job, folder).runs == straight.runs
 
 
 def test_a_killed_run_loses_less_than_an_evaluation_interval(tmp_path: Path) -> None:

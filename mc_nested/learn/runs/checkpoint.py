@@ -61,10 +61,17 @@ class Checkpoint:
     Args:
         folder: its path; made at the first save.
         identity: what is trained; a checkpoint with another identity is refused.
+        remedy: what to do where it is damaged, for the error.
     """
 
-    def __init__(self, folder: Path, identity: Mapping[str, Any]) -> None:
+    def __init__(
+        self,
+        folder: Path,
+        identity: Mapping[str, Any],
+        remedy: str = "bring back a whole copy, or train the run again",
+    ) -> None:
         self._folder = folder
+        self._remedy = remedy
         self.identity = fingerprint(identity)
         self._journals: list[str] = []
         self._next = 0
@@ -144,10 +151,7 @@ class Checkpoint:
             raise self._damaged(name) from error  # RuntimeError: zipfile finds a password
 
     def _damaged(self, name: str) -> RunError:
-        return RunError(
-            f"{self._folder / name}: the checkpoint is damaged or cut short: bring back a whole copy, or train the run "
-            f"again"
-        )
+        return RunError(f"{self._folder / name}: the checkpoint is damaged or cut short: {self._remedy}")
 
 
 def fingerprint(identity: Mapping[str, Any]) -> str:

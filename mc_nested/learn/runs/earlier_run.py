@@ -38,9 +38,11 @@ def earlier_run(run: Path, wanted: RunFolder) -> EarlierRun:
     folder = RunFolder.open(run)
     theirs, ours = folder.new_agent(1), wanted.new_agent(1)
     if (theirs.spec, theirs.forms, theirs.networks) != (ours.spec, ours.forms, ours.networks):
+        team = folder.config.team
+        who = f"--builders {len(team.starts)} --networks {team.networks}" if team else f"--agent {folder.config.agent}"
         raise RunError(
-            f"{run}: its networks don't fit this training: take its agent ({folder.config.agent}), its preset, and a "
-            f"design of {folder.scenario.blocks} blocks in an arena of {folder.scenario.size} x {folder.scenario.size}"
+            f"{run}: its networks don't fit this training: take {who}, its preset, and a design of "
+            f"{folder.scenario.blocks} blocks in an arena of {folder.scenario.size} x {folder.scenario.size}"
         )
     best = int(folder.policies()["scores"].argmax())
     return EarlierRun(
