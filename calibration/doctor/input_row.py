@@ -85,7 +85,7 @@ def is_menu(snapshot: WindowSnapshot) -> bool:
 
 
 @dataclass(frozen=True)
-class Step:
+class TriedStep:
     """A step that was seen and taken back.
 
     ``key`` led there, which was seen ``seen_s`` seconds after it went down; the player ended ``off`` blocks from where
@@ -97,7 +97,7 @@ class Step:
     off: float | None
 
 
-def moving_key(window: TriedWindow, keys: KeysTable) -> Step | None:
+def moving_key(window: TriedWindow, keys: KeysTable) -> TriedStep | None:
     """Return the step of the first movement key that was seen to move the player; None where none does."""
     for there, back in ((keys.forward, keys.back), (keys.back, keys.forward), (keys.left, keys.right)):
         start, pressed_at = window.world(), window.devices.clock.now()
@@ -109,7 +109,7 @@ def moving_key(window: TriedWindow, keys: KeysTable) -> Step | None:
             window.controller.hold(back, STEP_TICKS, keys.sneak)
             # In a game that lags the player is seen to stand before it is seen to go back.
             window.controller.wait(seen_s)
-            return Step(there, seen_s, _distance(_position(start), _stand_still(window)))
+            return TriedStep(there, seen_s, _distance(_position(start), _stand_still(window)))
     return None
 
 
@@ -233,7 +233,7 @@ def _try_keys(window: TriedWindow, keys: KeysTable) -> Check:
     return _try_debug_key(window, keys, step)
 
 
-def _try_debug_key(window: TriedWindow, keys: KeysTable, step: Step) -> Check:
+def _try_debug_key(window: TriedWindow, keys: KeysTable, step: TriedStep) -> Check:
     clock, key = window.devices.clock, keys.debug
     window.world()
     pressed_at = clock.now()
@@ -254,7 +254,7 @@ def _try_debug_key(window: TriedWindow, keys: KeysTable, step: Step) -> Check:
     return Check(_ROW, "warn", f"{key} works, but the debug screen didn't come back", f"press {key.upper()}")
 
 
-def _undone(step: Step) -> str:
+def _undone(step: TriedStep) -> str:
     if step.off is None:
         return "whether the step was undone couldn't be read"
     return "all undone" if step.off <= UNDONE else f"undone but for {step.off:.2f} blocks of the step"

@@ -34,7 +34,7 @@ from sim.worlds import Backend, as_shown, check_window, open_game, where_words
 
 
 @dataclass(frozen=True)
-class Played:
+class PlayResult:
     """What ``play`` prints."""
 
     folder: Annotated[Path, "the run's folder"]
@@ -48,7 +48,7 @@ class Played:
     film: Annotated[Path | None, "its file"]
 
 
-@prints(Played)
+@prints(PlayResult)
 def play(  # noqa: PLR0913 - a Typer verb: a parameter for each option
     run: RunArgument,
     backend: BackendOption = Backend.SIM,
@@ -91,7 +91,7 @@ def play(  # noqa: PLR0913 - a Typer verb: a parameter for each option
             is_quiet = output.quiet or output.as_json
             episode = started_over(lambda: _watch(game, folder, agent, which, pictures, viewing, is_quiet=is_quiet))
     material = episode.material_name(scenario)
-    found = Played(
+    found = PlayResult(
         folder=folder.path,
         trial=which,
         scenario=scenario.name,

@@ -51,7 +51,7 @@ class RunShown(RunFacts):
 
 
 @dataclass(frozen=True)
-class Evaluated:
+class EvaluationResult:
     """What ``runs evaluate`` prints."""
 
     folder: Annotated[Path, "the run's folder"]
@@ -95,14 +95,14 @@ def show(run: NameArgument, as_json: JsonOption = False) -> None:
 
 
 @app.command()
-@prints(Evaluated)
+@prints(EvaluationResult)
 def evaluate(run: RunArgument, as_json: JsonOption = False) -> None:
     """Replay the greedy policy of every trial in the simulator and print the scores."""
     folder = RunFolder.open(run)
     episodes = greedy_episodes(folder, folder.trained_agent())
     scenario = folder.scenario
     materials = [episode.material_name(scenario) for episode in episodes]
-    found = Evaluated(
+    found = EvaluationResult(
         folder=folder.path,
         scenario=scenario.name,
         optimum=scenario.optimum,

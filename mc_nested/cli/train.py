@@ -36,7 +36,7 @@ from mc_nested.cli.output import JsonOption, Output, QuietOption, prints
 from mc_nested.cli.output_folder import output_folder
 from mc_nested.cli.serve import keys as make_keys
 from mc_nested.cli.serve import serve
-from mc_nested.cli.training_end import Trained
+from mc_nested.cli.training_end import TrainingResult
 from mc_nested.cli.training_loop import HowToRun, run_training
 from mc_nested.cli.view import ViewOption
 from mc_nested.errors import UserError
@@ -73,7 +73,7 @@ app = typer.Typer()
 
 
 @app.callback(invoke_without_command=True)
-@prints(Trained)
+@prints(TrainingResult)
 def train(  # noqa: PLR0913 - a Typer verb: a parameter for each option
     context: typer.Context,
     scenario: Annotated[

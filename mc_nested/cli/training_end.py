@@ -66,7 +66,7 @@ def _draw_team(folder: RunFolder, trial: int) -> None:
 
 
 @dataclass(frozen=True)
-class Trained:
+class TrainingResult:
     """What ``train`` prints."""
 
     folder: Annotated[Path, "the run's folder"]
@@ -114,7 +114,7 @@ def say_end(output: Output, path: Path, config: RunConfig, summary: Mapping[str,
     if config.team:
         lines.append(f"picture:    {path / PICTURE}")
     lines.append(f"checkpoint: {path / 'checkpoint'}")
-    output.result(Trained(path, **summary), *lines)
+    output.result(TrainingResult(path, **summary), *lines)
     for line in next_steps(path, config, max(summary["final_scores"]) >= summary["optimum"]):
         output.hint(line)
 

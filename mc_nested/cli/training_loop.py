@@ -31,7 +31,7 @@ SAVE_EVERY_S = {Backend.SIM: 60.0, Backend.VIRTUAL: 60.0, Backend.LIVE: 15.0}
 """Seconds between checkpoints, which is what a kill can cost: in the simulator, or in a game of a block per second."""
 
 
-class Player(Protocol):
+class EpisodePlayer(Protocol):
     """Who plays a training's episodes: this computer (own_player.py), or games elsewhere (games_at_play.py)."""
 
     @property
@@ -71,13 +71,13 @@ class TrainingLoop:
     """
 
     folder: RunFolder
-    player: Player
+    player: EpisodePlayer
     publisher: Publisher
     interrupt: Interrupt
     began: float
 
     def run(self, output: Output) -> None:
-        """Train until it is finished or somebody stops it; errors as ``Player.play_on`` raises them."""
+        """Train until it is finished or somebody stops it; errors as ``EpisodePlayer.play_on`` raises them."""
         training, player, config = self.player.training, self.player, self.folder.config
         every = SAVE_EVERY_S[Backend(config.backend)]
         save_at = time.monotonic() + every

@@ -8,7 +8,7 @@ from mc_nested.arena.corpus_file import MOST_DESIGNS
 from mc_nested.arena.scenario import Scenario
 from mc_nested.learn.agents import AGENT_SPECS, AgentSpec, check_exploration, check_parts
 from mc_nested.learn.preset import Preset
-from mc_nested.studies.job import Builders, Run
+from mc_nested.studies.job import JobBuilders, Run
 
 LIBRARY = "stable-baselines3"
 
@@ -47,7 +47,7 @@ class Arm:
     preset_name: str = "paper"
     labels: Mapping[str, str] = field(default_factory=dict)
     sees_choice: bool | None = None
-    builders: Builders | None = None
+    builders: JobBuilders | None = None
     stop_at_optimum: bool = False
     differs_by_design: bool = False
     together: int | None = None

@@ -14,7 +14,7 @@ from mc_nested.learn.builders import Networks
 from mc_nested.learn.preset import Preset
 from mc_nested.learn.runs.folder_kind import FORMAT
 from mc_nested.studies.arm import AGENTS, Arm
-from mc_nested.studies.job import Builders, Job, cut_into_jobs, side_by_side
+from mc_nested.studies.job import Job, JobBuilders, cut_into_jobs, side_by_side
 
 
 def _known(name: str) -> str:
@@ -71,7 +71,7 @@ class StudyConfig(BaseModel):
             if missing or table.preset not in self.presets:
                 raise RunError(f"arm {table.name!r}: names what isn't there: put config.toml back as it was")
             fields = table.model_dump(exclude={"preset", "scenarios", "builders", "networks"})
-            builders = Builders(table.builders, table.networks) if table.builders else None
+            builders = JobBuilders(table.builders, table.networks) if table.builders else None
             own = tuple(scenarios[name] for name in table.scenarios)
             arms.append(Arm(preset=self.presets[table.preset], scenarios=own, builders=builders, **fields))
         _check_different(arms)

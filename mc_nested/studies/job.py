@@ -17,7 +17,7 @@ from mc_nested.learn.preset import Preset
 
 
 @dataclass(frozen=True)
-class Builders:
+class JobBuilders:
     """Several builders in one arena, spread along the scenario's start, and how they learn (builders.py)."""
 
     count: int
@@ -52,7 +52,7 @@ class Run:
     trial: int
     stop_at_optimum: bool = False
     library: str | None = None
-    builders: Builders | None = None
+    builders: JobBuilders | None = None
     together: int | None = None
     turn: int = 0
 
@@ -84,7 +84,7 @@ class Job:
     seed: int
     stop_at_optimum: bool = False
     library: str | None = None
-    builders: Builders | None = None
+    builders: JobBuilders | None = None
     work: int = 0
 
     @property

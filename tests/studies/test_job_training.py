@@ -14,7 +14,7 @@ from mc_nested.learn.builders import Networks
 from mc_nested.learn.episode_log import EpisodeRow, EvaluationRow
 from mc_nested.learn.runs.checkpoint import fingerprint
 from mc_nested.learn.training import Training
-from mc_nested.studies.job import Builders, Job, cut_into_jobs
+from mc_nested.studies.job import Job, JobBuilders, cut_into_jobs
 from mc_nested.studies.job_training import JobTraining, SpendingCount, agents_trainer, team_of_job
 from mc_nested.studies.outcome import OUTCOME, JobOutcome, RunOutcome, outcome_of
 from sim.grid import GridVectorEnv
@@ -215,7 +215,7 @@ def test_the_last_evaluation_has_the_outcomes_total_steps_and_updates(agent: str
 
 
 def team_job(builders: int, networks: Networks, trials: tuple[int, ...] = (0, 1)) -> Job:
-    job = replace(one_job("nested", [BAR], len(trials)), builders=Builders(builders, networks))
+    job = replace(one_job("nested", [BAR], len(trials)), builders=JobBuilders(builders, networks))
     return replace(job, trials=trials)
 
 

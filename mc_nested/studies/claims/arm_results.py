@@ -9,7 +9,7 @@ import numpy as np
 from mc_nested.arena.scenario import Scenario
 from mc_nested.arrays import Float64s
 from mc_nested.studies.arm import Arm
-from mc_nested.studies.job import Builders
+from mc_nested.studies.job import JobBuilders
 from mc_nested.studies.measures import LAST
 from mc_nested.studies.outcome import Evaluated
 from mc_nested.studies.trial import Trial, on_each
@@ -65,7 +65,7 @@ class ArmResults:
         return self.arm.stop_at_optimum
 
     @property
-    def team(self) -> Builders | None:
+    def team(self) -> JobBuilders | None:
         """Who shares an arena; None where an agent builds alone."""
         return self.arm.builders
 

@@ -15,7 +15,7 @@ from sim.client.game.edition import Edition
 from sim.client.game.realm import Stack
 from sim.client.game.screens import MenuState, ScreenName, label_colour, menu
 from sim.client.game.view import View
-from sim.client.game.widgets import DRAFT, PLAIN, WHITE, Colour, MenuText, Panel, Widget
+from sim.client.game.widgets import DRAFT, PLAIN, WHITE, Colour, MenuPanel, MenuText, Widget
 
 _CHAT_WIDTH = 320
 _PITCH = 9
@@ -245,5 +245,5 @@ class MenuLayers:
         return Gradient((0, 0, self._gui[0] * scale, self._gui[1] * scale), upper, lower)
 
 
-def _rect(shown: Widget | Panel) -> Rect:
+def _rect(shown: Widget | MenuPanel) -> Rect:
     return shown.left, shown.top, shown.left + shown.width, shown.top + shown.height

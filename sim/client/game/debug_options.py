@@ -7,7 +7,7 @@ from itertools import groupby
 
 from sim.client.game.debug_entries import DebugEntries, Status, known_entries
 from sim.client.game.edition import Edition
-from sim.client.game.widgets import GREY, WHITE, Colour, Effect, EntryChange, Menu, MenuText, Panel, Widget
+from sim.client.game.widgets import GREY, WHITE, Colour, Effect, EntryChange, Menu, MenuPanel, MenuText, Widget
 
 _HEADER, _FOOTER, _ROW = 61, 33, 20
 _BUTTON_HEIGHT, _LINE = 16, 2
@@ -60,10 +60,10 @@ def debug_options(shown: tuple[Choice, ...], searched: str, edition: Edition, wi
         if top + _ROW > height - _FOOTER:
             break
     panels = (
-        Panel(0, _HEADER, width, height - _HEADER - _FOOTER, 128),
-        Panel(0, _HEADER - _LINE, width, _LINE),
-        Panel(0, height - _FOOTER, width, _LINE),
-        Panel(width // 2 + 48, 7, wide // 3, _ROW),
+        MenuPanel(0, _HEADER, width, height - _HEADER - _FOOTER, 128),
+        MenuPanel(0, _HEADER - _LINE, width, _LINE),
+        MenuPanel(0, height - _FOOTER, width, _LINE),
+        MenuPanel(width // 2 + 48, 7, wide // 3, _ROW),
     )
     header = (
         MenuText("Debug Options", width // 2, 12),

@@ -32,7 +32,7 @@ class Fact(NamedTuple):
     value: tuple[tuple[str, Colour], ...]
 
 
-class Box(NamedTuple):
+class EntryBox(NamedTuple):
     """A box and what is in it."""
 
     kind: Kind
@@ -68,13 +68,13 @@ def first_lines(screen: F3Screen) -> tuple[str, ...]:
     return tuple(lines[entry] for entry in screen.shown if entry in lines)
 
 
-def boxes(screen: F3Screen) -> list[Box]:
+def boxes(screen: F3Screen) -> list[EntryBox]:
     """Return all other boxes that have something in them, in the order in which they are given a column."""
-    said: dict[str, Box] = {}
+    said: dict[str, EntryBox] = {}
     for entry in screen.shown:
         for box in _ENTRIES.get(entry, _nothing)(screen):
-            before = said.get(box.kind.title, Box(box.kind))
-            said[box.kind.title] = Box(box.kind, before.facts + box.facts, before.lines + box.lines)
+            before = said.get(box.kind.title, EntryBox(box.kind))
+            said[box.kind.title] = EntryBox(box.kind, before.facts + box.facts, before.lines + box.lines)
     if MISC.title in said:
         said[MISC.title] = said.pop(MISC.title)
     if screen.shown and screen.has_f3:
@@ -82,7 +82,7 @@ def boxes(screen: F3Screen) -> list[Box]:
     return list(said.values())
 
 
-def _nothing(_: F3Screen) -> tuple[Box, ...]:
+def _nothing(_: F3Screen) -> tuple[EntryBox, ...]:
     return ()
 
 
@@ -92,12 +92,12 @@ def _fact(name: str, *texts: str) -> Fact:
     return Fact(name, tuple((text, colour) for text, colour in pieces if text))
 
 
-def _always(kind: Kind, *facts: Fact, lines: tuple[str, ...] = ()) -> Callable[[F3Screen], tuple[Box, ...]]:
-    box = (Box(kind, facts, lines),)
+def _always(kind: Kind, *facts: Fact, lines: tuple[str, ...] = ()) -> Callable[[F3Screen], tuple[EntryBox, ...]]:
+    box = (EntryBox(kind, facts, lines),)
     return lambda _: box
 
 
-_HELP = Box(
+_HELP = EntryBox(
     HELP,
     lines=(
         "Debug charts: [F3+1] Profiler hidden; [F3+2] fps + tps hidden;",
@@ -107,7 +107,7 @@ _HELP = Box(
 )
 
 
-def _position(screen: F3Screen) -> tuple[Box, ...]:
+def _position(screen: F3Screen) -> tuple[EntryBox, ...]:
     (px, py, pz), (x, y, z) = screen.xyz, screen.block
     direction, axis = towards(screen.yaw).rstrip(")").split(" (")
     inside = f"{x >> 4 & 31}", " ", f"{z >> 4 & 31}", " in ", f"r.{x >> 9}.{z >> 9}.mca", "]"
@@ -118,55 +118,55 @@ def _position(screen: F3Screen) -> tuple[Box, ...]:
         _fact("Facing", direction, " (", axis, ") (", f"{screen.yaw:.1f}", " / ", f"{screen.pitch:.1f}", ")"),
         _fact("Dimension", "minecraft:overworld"),
     )
-    return (Box(POSITION, facts),)
+    return (EntryBox(POSITION, facts),)
 
 
-def _section(screen: F3Screen) -> tuple[Box, ...]:
-    return (Box(POSITION, (_fact("Section-Relative", section_of(screen.block)),)),)
+def _section(screen: F3Screen) -> tuple[EntryBox, ...]:
+    return (EntryBox(POSITION, (_fact("Section-Relative", section_of(screen.block)),)),)
 
 
-def _block(screen: F3Screen) -> tuple[Box, ...]:
+def _block(screen: F3Screen) -> tuple[EntryBox, ...]:
     if screen.target is None or screen.target.pos is None:
         return ()
     return _looked_at(BLOCK, screen.target.pos, screen.target.id or "", screen.properties)
 
 
-def _fluid(screen: F3Screen) -> tuple[Box, ...]:
+def _fluid(screen: F3Screen) -> tuple[EntryBox, ...]:
     if screen.fluid is None:
         return ()
     return _looked_at(_FLUID, screen.fluid, "minecraft:water", (("falling", "false"), ("level", "8")))
 
 
-def _entity(screen: F3Screen) -> tuple[Box, ...]:
+def _entity(screen: F3Screen) -> tuple[EntryBox, ...]:
     if screen.entity is None:
         return ()
     x, y, z = (f"{part:.2f}" for part in screen.entity)
-    return (Box(_ENTITY, (_fact("Coordinates", x, ", ", y, ", ", z), _fact("Type", "minecraft:pig"))),)
+    return (EntryBox(_ENTITY, (_fact("Coordinates", x, ", ", y, ", ", z), _fact("Type", "minecraft:pig"))),)
 
 
 def _looked_at(
     kind: Kind, pos: tuple[int, int, int], name: str, properties: tuple[tuple[str, str], ...]
-) -> tuple[Box, ...]:
+) -> tuple[EntryBox, ...]:
     x, y, z = map(str, pos)
     colours = {"true": _TRUE, "false": _FALSE}
     states = (Fact(key, ((value, colours.get(value, WHITE)),)) for key, value in properties)
-    return (Box(kind, (_fact("Coordinates", x, ", ", y, ", ", z), _fact("Type", name), *states)),)
+    return (EntryBox(kind, (_fact("Coordinates", x, ", ", y, ", ", z), _fact("Type", name), *states)),)
 
 
-def _tags(screen: F3Screen) -> tuple[Box, ...]:
-    return (Box(BLOCK, lines=tuple(f"#{tag}" for tag in screen.tags)),) if screen.target and screen.tags else ()
+def _tags(screen: F3Screen) -> tuple[EntryBox, ...]:
+    return (EntryBox(BLOCK, lines=tuple(f"#{tag}" for tag in screen.tags)),) if screen.target and screen.tags else ()
 
 
-def _fluid_tags(screen: F3Screen) -> tuple[Box, ...]:
-    return (Box(_FLUID, lines=("#minecraft:water",)),) if screen.fluid else ()
+def _fluid_tags(screen: F3Screen) -> tuple[EntryBox, ...]:
+    return (EntryBox(_FLUID, lines=("#minecraft:water",)),) if screen.fluid else ()
 
 
-def _system(screen: F3Screen) -> tuple[Box, ...]:
+def _system(screen: F3Screen) -> tuple[EntryBox, ...]:
     return _specs(*screen.size)
 
 
 @lru_cache(16)
-def _specs(width: int, height: int) -> tuple[Box, ...]:
+def _specs(width: int, height: int) -> tuple[EntryBox, ...]:
     size = f"{width}", "x", f"{height}"
     facts = (
         _fact("Java", "25.0.2"),
@@ -174,10 +174,10 @@ def _specs(width: int, height: int) -> tuple[Box, ...]:
         _fact("Display", *size, " (", "AMD", ")"),
         _fact("Window", *size, " (", "1.00", "x pixel density)"),
     )
-    return (Box(_SPECS, facts, ("AMD Radeon (dGPU)", "Vulkan 1.3.0")),)
+    return (EntryBox(_SPECS, facts, ("AMD Radeon (dGPU)", "Vulkan 1.3.0")),)
 
 
-_ENTRIES: dict[str, Callable[[F3Screen], tuple[Box, ...]]] = {
+_ENTRIES: dict[str, Callable[[F3Screen], tuple[EntryBox, ...]]] = {
     "biome": _always(POSITION, _fact("Biome", "minecraft:plains")),
     "chunk_generation_stats": _always(_GENERATION, lines=("NoiseRouter T: 0.512", "Biome builder PV: Low")),
     "chunk_render_stats": _always(_RENDERING, _fact("Rendered", "302", "/", "7225"), _fact("Distance", "8")),
@@ -225,7 +225,7 @@ TOP, PITCH = 2, 9
 class PlacedBox(NamedTuple):
     """A box, and the row of GUI pixels of its first line."""
 
-    box: Box
+    box: EntryBox
     top: int
 
 
@@ -241,7 +241,7 @@ class _Column:
     def is_full(self) -> bool:
         return self.height >= self._rows
 
-    def add(self, box: Box) -> None:
+    def add(self, box: EntryBox) -> None:
         self.placed.append(PlacedBox(box, self.height))
         self.height += (box.rows + 1) * PITCH
 
@@ -252,7 +252,7 @@ def box_columns(screen: F3Screen, rows: int) -> tuple[list[PlacedBox], list[Plac
     first = first_lines(screen)
     for column, lines in zip(columns, (first[::2], first[1::2]), strict=True):
         if lines:
-            column.add(Box(FIRST, lines=lines))
+            column.add(EntryBox(FIRST, lines=lines))
     waiting = {box.kind.title: box for box in boxes(screen)}
     for column, titles in zip(columns, screen.stood, strict=True):
         _fill(column, waiting, titles)
@@ -264,7 +264,7 @@ def box_columns(screen: F3Screen, rows: int) -> tuple[list[PlacedBox], list[Plac
     return left.placed, right.placed
 
 
-def _fill(column: _Column, waiting: dict[str, Box], titles: Iterable[str]) -> None:
+def _fill(column: _Column, waiting: dict[str, EntryBox], titles: Iterable[str]) -> None:
     """Put the boxes of these titles that are waiting into a column, as long as it isn't full."""
     for title in titles:
         if title in waiting and not column.is_full:

@@ -8,7 +8,7 @@ from itertools import chain
 from typing import get_args
 
 from sim.client.game.edition import Layout
-from sim.client.game.entry_boxes import Box, box_columns
+from sim.client.game.entry_boxes import EntryBox, box_columns
 from sim.client.game.entry_lines import entry_columns
 from sim.client.game.f3_screen import F3Screen, Part, TextLine, chunk_of, towards
 
@@ -47,7 +47,7 @@ def both_columns(screen: F3Screen) -> tuple[list[Part], list[Part]]:
     )
 
 
-def _boxed(box: Box) -> Part:
+def _boxed(box: EntryBox) -> Part:
     """Return the text of a box of 26.4, each fact as one text, and the gap below it."""
     facts = (f"{fact.name}: {''.join(text for text, _ in fact.value)}" for fact in box.facts)
     title = (box.kind.title,) if box.kind.title else ()

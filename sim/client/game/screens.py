@@ -8,7 +8,7 @@ from typing import Literal, NamedTuple
 
 from sim.client.game.debug_options import Choice, debug_options
 from sim.client.game.edition import Edition
-from sim.client.game.widgets import GREY, WHITE, Colour, Menu, MenuText, Panel, Widget
+from sim.client.game.widgets import GREY, WHITE, Colour, Menu, MenuPanel, MenuText, Widget
 
 ScreenName = Literal[
     "world",
@@ -179,7 +179,7 @@ def _friends(_state: MenuState, _edition: Edition, width: int, height: int) -> M
         Widget(name, left + across, top - 27, _FRIENDS_WIDTH // 2, is_active=across > 0)
         for across, name in ((0, "Friends"), (_FRIENDS_WIDTH // 2, "Requests (0)"))
     )
-    panel = Panel(left - _BORDER, top - _BORDER, _FRIENDS_WIDTH + 2 * _BORDER, high + 2 * _BORDER + 1)
+    panel = MenuPanel(left - _BORDER, top - _BORDER, _FRIENDS_WIDTH + 2 * _BORDER, high + 2 * _BORDER + 1)
     inside = Widget("", panel.left, top - 27, panel.width, height=27 + high + 2 * _BORDER, is_drawn=False)
     beside = Widget("", 0, 0, width, "behind", height, is_drawn=False)
     return Menu((MenuText("Loading friends", width // 2, height // 2),), (*tabs, inside, beside), (panel,))

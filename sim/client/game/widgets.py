@@ -83,7 +83,7 @@ class MenuText:
     size: int = 1
 
 
-class Panel(NamedTuple):
+class MenuPanel(NamedTuple):
     """A dark rectangle behind texts and buttons; its alpha is out of 255."""
 
     left: int
@@ -99,4 +99,4 @@ class Menu:
 
     texts: tuple[MenuText, ...] = ()
     buttons: tuple[Widget, ...] = ()
-    panels: tuple[Panel, ...] = ()
+    panels: tuple[MenuPanel, ...] = ()

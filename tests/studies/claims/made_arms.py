@@ -9,7 +9,7 @@ from mc_nested.learn.preset import load_preset
 from mc_nested.studies.arm import Arm
 from mc_nested.studies.beyond import with_materials
 from mc_nested.studies.claims.arm_results import ArmResults, Arms
-from mc_nested.studies.job import Builders
+from mc_nested.studies.job import JobBuilders
 from mc_nested.studies.outcome import Evaluated, RunOutcome
 from mc_nested.studies.trial import Trial
 
@@ -42,7 +42,7 @@ def arm(
     materials: int = 2,
     networks: int = 2,
     stops: bool = False,
-    team: Builders | None = None,
+    team: JobBuilders | None = None,
 ) -> ArmResults:
     """Return the results of an arm on a design of that name, whose optimum is 21."""
     design = replace(with_materials(LINE, materials), name=scenario)
@@ -114,9 +114,9 @@ def whole(means: Callable[[str, str, int], float] = lambda *_: 15.0, trials: int
             for name in networks
         ]
     alone = around(means("cooperation", "alone", 1), trials)
-    arms.append(arm("cooperation", "1 builder", alone, team=Builders(1, "shared")))
+    arms.append(arm("cooperation", "1 builder", alone, team=JobBuilders(1, "shared")))
     for count in (2, 3, 4):
         for kind in NETWORKS:
             scores = around(means("cooperation", kind, count), trials)
-            arms.append(arm("cooperation", f"{count} builders, {kind}", scores, team=Builders(count, kind)))
+            arms.append(arm("cooperation", f"{count} builders, {kind}", scores, team=JobBuilders(count, kind)))
     return {each.key: each for each in arms}
