@@ -35,11 +35,13 @@ def draw_curve(path: Path, title: str, episodes: Sequence[int], scores: Float64s
 def t_interval(scores: Float64s, highest: float = np.inf) -> tuple[Float64s, Float64s]:
     """Return Student's t interval (95 %) of the mean of two trials or more (trials, evaluations), cut at ``highest``.
 
-    No mean can be above the highest score, so the cut costs no coverage. Where all trials agree it has no width: that
-    says that none of them differed, not that no other would.
+    No mean can be above the highest score, so the cut costs no coverage. NaN where half of the trials or more are at
+    it: of such trials the interval would hold the mean far less often than it says (studies/inference.py: coverage).
+    Where all trials agree it has no width: that says that none of them differed, not that no other would.
     """
     mean = scores.mean(axis=0)
     half = stdtrit(len(scores) - 1, 0.975) * scores.std(axis=0, ddof=1) / np.sqrt(len(scores))
+    half = np.where((scores >= highest).mean(axis=0) < 0.5, half, np.nan)
     return mean - half, np.minimum(mean + half, highest)
 
 

@@ -20,12 +20,12 @@ from mc_nested.studies.claims.arm_results import ArmResults, Arms, arm_results
 from mc_nested.studies.claims.beyond import equal_budget, judge_beyond, of_topic
 from mc_nested.studies.claims.costs import MEGA
 from mc_nested.studies.config import StudyConfig
-from mc_nested.studies.inference import ALPHA, mean_interval, share_interval
+from mc_nested.studies.inference import ALPHA, share_interval
 from mc_nested.studies.job import JobBuilders
 from mc_nested.studies.power import MOST_TRIALS, POWER, deciding_trials
 from mc_nested.studies.reproduce import found_of
 from mc_nested.studies.study import Report, Study, StudyOptions, with_episodes
-from mc_nested.studies.table import NONE, Table, interval, markdown, mean, number_of_trials
+from mc_nested.studies.table import NONE, Table, interval, interval_of_mean, markdown, mean, number_of_trials
 from mc_nested.studies.trial import Trial, greedy_table
 from mc_nested.studies.verdicts import JudgedClaim
 
@@ -164,7 +164,6 @@ MORE = """\
 - The trials that would decide a claim are so many that its tests would decide it with a power of {power:g}, if means,
   spreads and shares were what these trials had: all lines shown, or the opposite of one, at α divided by the number of
   lines. An estimate from few trials is rough, and so is this.
-- A difference of differences has no permutation that leaves it as it was: (l) is tested by Welch and Satterthwaite's t.
 - The states "screen" are not among these: they need a game's window."""
 
 
@@ -202,7 +201,7 @@ def report_on(arms: Arms, trials: int, seed: int) -> Report:
         text += [claim_section(each) for each in claims if each.claim.letter.startswith(LETTERS[topic])]
     text += ["## How it was computed", method(claims, trials, keeps_best=False), MORE.format(power=POWER)]
     every = [trial for each in arms.values() for trial in each.trials]
-    rows = [(f"({each.claim.letter})", each.claim.title, each.verdict.value, in_words(each)) for each in claims]
+    rows = [(f"({each.claim.letter})", each.claim.title, each.words, in_words(each)) for each in claims]
     return Report(
         text=text,
         figure=beyond_figure(arms),
@@ -234,9 +233,7 @@ def _too_few(arms: Sequence[ArmResults]) -> list[str]:
 
 
 def _verdicts(claims: Sequence[JudgedClaim]) -> str:
-    rows = [
-        (f"({each.claim.letter})", each.claim.title, f"**{each.verdict.value}**", in_words(each)) for each in claims
-    ]
+    rows = [(f"({each.claim.letter})", each.claim.title, f"**{each.words}**", in_words(each)) for each in claims]
     header = ("claim", "", f"verdict at α = {ALPHA:g}", f"trials that would decide it, power {POWER:g}")
     return markdown(header, rows)
 
@@ -273,7 +270,7 @@ def _scores(arms: Sequence[ArmResults]) -> str:
 
 
 def _mean_and_interval(trials: Float64s, optimum: float) -> tuple[str, str]:
-    return mean(trials), interval(mean_interval(trials, optimum))
+    return mean(trials), interval_of_mean(trials, optimum)
 
 
 def _reached(arm: ArmResults) -> tuple[str, str, str]:

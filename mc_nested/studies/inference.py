@@ -1,12 +1,15 @@
 """Tests and intervals over trials, as pure functions: the same trials give the same figures to the bit.
 
-The trials of two agents are independent samples: a shared seed gives both the same random numbers, but they are spent
-on other networks and other choices, so nothing pairs them. The tests permute trials between the agents, and compare
-Welch's t, not the difference itself: so they keep their level where the spreads differ (Janssen, 1997). The intervals
-are Welch's and Student's t: at ten trials they came nearest to their 95 % (tests/studies/test_coverage.py).
+Trials of two agents with one number are a pair. They share the seed's random numbers, and nested and hierarchical the
+first weights of the main network, too: on the zigzag their early scores are correlated
+(tests/studies/test_pairs.py). So what is tested is the difference within each pair. Where the agents don't differ, it
+is as likely to be above 0 as below: a sign-flip test (Fisher, 1935) asks how many choices of the signs give as high a
+mean. The intervals are Student's t.
 """
 
+import itertools
 from collections.abc import Sequence
+from functools import cache
 from typing import NamedTuple
 
 import numpy as np
@@ -19,10 +22,13 @@ ALPHA = 0.05
 """The significance level of each claim's verdict."""
 
 RESAMPLES = 9_999
-"""Permutations where there are more ways than these to split the trials, else all; resamples of a bootstrap."""
+"""Choices of the signs where there are more than these, else all; resamples of a bootstrap."""
+
+SIMULATED = 2_000
+"""Experiments from which an interval's coverage is told."""
 
 DECIMALS = 10
-"""Of a test's statistic: splits that differ by rounding alone tie."""
+"""Of a difference: pairs that differ by rounding alone are the same."""
 
 
 class Interval(NamedTuple):
@@ -33,56 +39,58 @@ class Interval(NamedTuple):
 
 
 class Tails(NamedTuple):
-    """The two p-values of a claim: a small ``claim`` speaks for it, a small ``against`` speaks against it."""
+    """The p-values of a claim.
+
+    A small ``claim`` speaks for it, a small ``against`` speaks against it, a small ``small`` says that the difference
+    is less than a margin either way; None where there is no margin.
+    """
 
     claim: float
     against: float
+    small: float | None = None
 
 
-def exceeds(left: Float64s, right: Float64s) -> float:
-    """Return the one-sided p of a permutation test that the mean of ``left``, of two or more, is above ``right``'s.
+def exceeds(differences: Float64s, than: float = 0.0) -> float:
+    """Return the one-sided p of a sign-flip test that the mean of the differences (pairs,) is above ``than``.
 
-    Exact where all splits are gone through, and the two agents differ in nothing. Trials that are all the same give 1.
+    Exact where all choices of the signs are gone through. Differences that are all ``than`` give 1.
     """
-    centre, scale = _centre_and_scale(left, right)
-    test = stats.permutation_test(
-        ((left - centre) / scale, (right - centre) / scale),
-        studentised,
-        n_resamples=RESAMPLES,
-        vectorized=True,
-        alternative="greater",
-        rng=np.random.default_rng(0),
-    )
-    return float(test.pvalue)
+    beyond = np.round(differences - than, DECIMALS)
+    # A tenth of what makes a difference: sums in another order tie.
+    as_high = _signs(len(beyond)) @ beyond >= beyond.sum() - 0.1 * 10.0**-DECIMALS
+    return float(as_high.mean())
 
 
-def studentised(left: Float64s, right: Float64s, axis: int = -1) -> Float64s:
-    """Return Welch's t of the difference of the means as t / sqrt(1 + t²), in [-1, 1]: in t's order, never infinite.
-
-    1 or -1 where no trial differs from its agent's others, and 0 where the means are the same, too. For trials of the
-    order of 1.
-    """
-    difference = left.mean(axis=axis) - right.mean(axis=axis)
-    variance = left.var(axis=axis, ddof=1) / left.shape[axis] + right.var(axis=axis, ddof=1) / right.shape[axis]
-    size = np.sqrt(difference**2 + variance)
-    is_more = size > 10.0**-DECIMALS
-    found: Float64s = np.round(np.where(is_more, difference, 0.0) / np.where(is_more, size, 1.0), DECIMALS)
-    return found
+@cache
+def _signs(pairs: int) -> Float64s:
+    """Return choices of the signs (choices, pairs): all, or so many drawn ones; the first changes none."""
+    if 2**pairs <= RESAMPLES + 1:
+        return np.array(list(itertools.product((1.0, -1.0), repeat=pairs)))
+    signs = np.random.default_rng(0).choice([-1.0, 1.0], (RESAMPLES + 1, pairs))
+    signs[0] = 1.0
+    return signs
 
 
-def ahead(left: Float64s, right: Float64s, margin: float) -> Tails:
-    """Test whether ``left`` is ahead. For: the difference is above 0. Against: it is below ``margin``.
-
-    Both can hold, for a lead smaller than the margin: then it is ahead.
-    """
-    return Tails(exceeds(left, right), exceeds(right, left - margin))
+def within(differences: Float64s, margin: float) -> float:
+    """Return the p that the mean of the differences (pairs,) is less than ``margin`` either way, by two tests."""
+    return max(exceeds(differences, -margin), exceeds(-differences, -margin))
 
 
-def alike(left: Float64s, right: Float64s, margin: float) -> Tails:
-    """Test whether the means differ by less than ``margin``: for it by two one-sided tests, against that it is more."""
-    within = max(exceeds(left + margin, right), exceeds(right + margin, left))
-    beyond = min(exceeds(left - margin, right), exceeds(right - margin, left))
-    return Tails(within, min(1.0, 2 * beyond))
+def ahead(differences: Float64s, margin: float | None = None) -> Tails:
+    """Test whether the mean of the differences (pairs,) is above 0, or below; and whether it is small."""
+    small = None if margin is None else within(differences, margin)
+    return Tails(exceeds(differences), exceeds(-differences), small)
+
+
+def alike(differences: Float64s, margin: float) -> Tails:
+    """Test whether the mean of the differences (pairs,) is less than ``margin`` either way, or more."""
+    beyond = min(exceeds(differences, margin), exceeds(-differences, margin))
+    return Tails(within(differences, margin), min(1.0, 2 * beyond))
+
+
+def no_worse(differences: Float64s, margin: float) -> Tails:
+    """Test whether the mean of the differences (pairs,) is above -``margin``, or below."""
+    return Tails(exceeds(differences, -margin), exceeds(-differences, margin))
 
 
 def mostly(successes: int, trials: int) -> Tails:
@@ -92,56 +100,32 @@ def mostly(successes: int, trials: int) -> Tails:
     return Tails(float(above), float(below))
 
 
-def no_worse(left: Float64s, right: Float64s, margin: float) -> Tails:
-    """Test whether ``left`` is behind by less than ``margin``: for it above -margin, against it below."""
-    return Tails(exceeds(left + margin, right), exceeds(right, left + margin))
-
-
-def contrast(groups: Sequence[Float64s], weights: Sequence[float]) -> tuple[Tails, Interval]:
-    """Test whether a weighted sum of the groups' means is above 0, or below; and its 95 % interval.
-
-    Welch and Satterthwaite's t, since no permutation leaves a difference of differences as it was. At least two
-    trials of each. Trials that are all the same give 1.
-    """
-    found = sum(weight * float(group.mean()) for weight, group in zip(weights, groups, strict=True))
-    pairs = zip(weights, groups, strict=True)
-    parts = [weight**2 * float(group.var(ddof=1)) / len(group) for weight, group in pairs]
-    if not sum(parts):
-        return Tails(1.0, 1.0), Interval(found, found)
-    freedom = _freedom(parts, groups)
-    error = sum(parts) ** 0.5
-    half = float(stats.t.ppf(0.975, freedom)) * error
-    tails = Tails(float(stats.t.sf(found / error, freedom)), float(stats.t.cdf(found / error, freedom)))
-    return tails, Interval(found - half, found + half)
-
-
-def _freedom(parts: Sequence[float], groups: Sequence[Float64s]) -> float:
-    """Return Satterthwaite's degrees of freedom of a sum whose squared standard error has a part of each group."""
-    return sum(parts) ** 2 / sum(part**2 / (len(group) - 1) for part, group in zip(parts, groups, strict=True))
-
-
-def difference_interval(left: Float64s, right: Float64s) -> Interval:
-    """Return Welch's t interval of the difference of the means; at least two trials of both.
-
-    Without width where no trial differs from its agent's others.
-    """
-    difference = float(left.mean() - right.mean())
-    parts = [float(trials.var(ddof=1)) / len(trials) for trials in (left, right)]
-    if not sum(parts):
-        return Interval(difference, difference)
-    half = float(stats.t.ppf(0.975, _freedom(parts, (left, right)))) * sum(parts) ** 0.5
-    return Interval(difference - half, difference + half)
-
-
 def mean_interval(trials: Float64s, highest: float = np.inf) -> Interval | None:
-    """Return Student's t interval of the mean over trials (trials,), cut at ``highest``; None for fewer than two.
+    """Return Student's t interval of the mean over trials (trials,), cut at ``highest``.
 
-    Without width where no trial differs from the others.
+    None for fewer than two, and where half of them or more are at the highest score (t_interval). Without width where
+    no trial differs from the others.
     """
     if len(trials) < 2:
         return None
     low, high = t_interval(trials[:, None], highest)
-    return Interval(float(low[0]), float(high[0]))
+    return None if np.isnan(low[0]) else Interval(float(low[0]), float(high[0]))
+
+
+def coverage(trials: Float64s, highest: float = np.inf) -> Float64s:
+    """Return how often such an interval holds the mean of trials (trials, measures), (measures,).
+
+    The share of SIMULATED experiments of as many trials, drawn from these, whose intervals hold the mean of these.
+    NaN where there is no interval.
+    """
+    drawn = np.random.default_rng(0).integers(0, len(trials), (len(trials), SIMULATED))
+    held = np.empty(trials.shape[1])
+    for at, own in enumerate(trials.T):
+        low, high = t_interval(own[drawn], highest)
+        given = ~np.isnan(low)
+        holds = (low <= own.mean() + 1e-9) & (own.mean() - 1e-9 <= high)
+        held[at] = holds[given].mean() if given.any() and not np.isnan(t_interval(own[:, None], highest)[0]) else np.nan
+    return held
 
 
 def share_interval(successes: int, trials: int) -> Interval:
@@ -165,10 +149,3 @@ def holm(p_values: Sequence[float]) -> list[float]:
         largest = max(largest, min(1.0, (len(p_values) - rank) * p_values[index]))
         adjusted[index] = largest
     return adjusted
-
-
-def _centre_and_scale(left: Float64s, right: Float64s) -> tuple[float, float]:
-    both = np.concatenate((left, right))
-    centre = float(both.mean())
-    # Where trials differ by rounding alone, that must not be scaled up to look like a difference.
-    return centre, max(float(np.abs(both - centre).max()), 1e-5 * (1.0 + abs(centre)))

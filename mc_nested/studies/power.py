@@ -9,7 +9,6 @@ from typing import Protocol
 
 import numpy as np
 from scipy import stats
-from scipy.special import comb
 
 from mc_nested.arrays import Float64s, Int64s
 from mc_nested.studies.inference import ALPHA
@@ -32,37 +31,31 @@ class TestedEffect(Protocol):
 
 @dataclass(frozen=True)
 class MeanEffect:
-    """A sum of means beside what it is tested against, by Welch's t.
+    """A mean difference within pairs beside what it is tested against, by Student's t.
 
-    ``is_permuted``: whether a permutation test decides, which few trials don't allow. Without spread that is sure from
-    enough trials on, while a t test decides nothing.
+    A sign-flip test decides, which few trials don't allow. Without spread that is sure from enough trials on.
 
     Args:
-        above: how far it is above what the claim says, negative if it is below.
-        below: how far it is below what the opposite says, negative if it is above.
-        spreads: the standard deviation of each group's trials, times its weight in the sum.
+        above: how far it is above what it is tested against, negative if it is below.
+        spread: the standard deviation of the differences.
     """
 
     above: float
-    below: float
-    spreads: tuple[float, ...]
-    is_permuted: bool = True
+    spread: float
 
     def power_for(self, trials: Int64s, alpha: float) -> Float64s:
         return self._power(self.above, trials, alpha)
 
     def power_against(self, trials: Int64s, alpha: float) -> Float64s:
-        return self._power(self.below, trials, alpha)
+        return self._power(-self.above, trials, alpha)
 
     def _power(self, distance: float, trials: Int64s, alpha: float) -> Float64s:
-        # A permutation test can't be below the share of one split among all.
-        is_possible = 1 / comb(2 * trials, trials) < alpha if self.is_permuted else np.full(trials.shape, True)
-        parts = np.array([spread**2 for spread in self.spreads])
-        if not parts.sum():
-            return np.where(is_possible & self.is_permuted, float(distance > 0), 0.0)
-        freedom = parts.sum() ** 2 / (parts**2).sum() * (trials - 1)
-        distances = distance / np.sqrt(parts.sum() / trials)
-        found = stats.nct.sf(stats.t.ppf(1 - alpha, freedom), freedom, distances)
+        # No p can be below the share of one choice of the signs among all.
+        is_possible = 0.5**trials < alpha
+        if not self.spread:
+            return np.where(is_possible, float(distance > 0), 0.0)
+        distances = distance / (self.spread / np.sqrt(trials))
+        found = stats.nct.sf(stats.t.ppf(1 - alpha, trials - 1), trials - 1, distances)
         # So far out that the power is 0 or 1, scipy's noncentral t isn't finite.
         power: Float64s = np.where(is_possible, np.where(np.isfinite(found), found, distance > 0), 0.0)
         return power

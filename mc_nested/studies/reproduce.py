@@ -15,11 +15,11 @@ from mc_nested.studies.claims.judge import judge
 from mc_nested.studies.claims.longer import trials_solved
 from mc_nested.studies.config import StudyConfig
 from mc_nested.studies.figure5 import figure5
-from mc_nested.studies.inference import mean_interval, share_interval
+from mc_nested.studies.inference import coverage, share_interval
 from mc_nested.studies.measures import Curve, early_limit
 from mc_nested.studies.results import Cost, Results, results_of
 from mc_nested.studies.study import Report, Study, StudyOptions, with_episodes
-from mc_nested.studies.table import NONE, Table, interval, markdown, mean, number_of_trials
+from mc_nested.studies.table import NONE, Table, interval, interval_of_mean, markdown, mean, number_of_trials
 from mc_nested.studies.trial import Trial, greedy_table
 from mc_nested.studies.verdicts import JudgedClaim
 
@@ -79,6 +79,7 @@ def report_on(results: Results, longer: Results | None, tables: dict[str, Table]
             _what_was_run(results, longer),
             _scores(results),
             "![Score of a greedy episode against training episodes, a panel for each scenario](figure5.png)",
+            *_bands(results),
             "## The paper's claims",
             claims_table(claims),
             *(claim_section(judged) for judged in claims),
@@ -92,7 +93,7 @@ def report_on(results: Results, longer: Results | None, tables: dict[str, Table]
         found={"claims": [found_of(each) for each in claims]},
         shown=Table(
             ("", "the paper's claim", "verdict"),
-            [(f"({each.claim.letter})", each.claim.title, each.verdict.value) for each in claims],
+            [(f"({each.claim.letter})", each.claim.title, each.words) for each in claims],
         ),
     )
 
@@ -105,7 +106,13 @@ def found_of(judged: JudgedClaim) -> dict[str, str]:
 EXPLAINED = """\
 Final: the score of the policy that a trial keeps. Last ten: the mean of a trial's last ten evaluations. Early: the mean
 over the first {early:,} episodes. Spread: a trial's standard deviation over the evaluations of the last third. All are
-means over the trials. At the optimum: trials whose final score is."""
+means over the trials. At the optimum: trials whose final score is. Held: how often such an interval holds the mean, in
+experiments of as many trials drawn from these."""
+
+BANDS = """\
+The bands are 95 % intervals of the mean. There is none where half of the trials or more are at the optimum. In
+experiments drawn from each point's own trials, such an interval held the mean in {middle:.0f} % (median of all points;
+{lowest:.0f} % at least)."""
 
 SCORES = (
     "scenario",
@@ -140,15 +147,23 @@ def _scores(results: Results) -> str:
                     scenario,
                     agent,
                     f"**{mean(curve.final)}** of {optimum:g}",
-                    interval(mean_interval(curve.final, optimum)),
+                    interval_of_mean(curve.final, optimum),
                     mean(curve.last_ten),
-                    interval(mean_interval(curve.last_ten, optimum)),
+                    interval_of_mean(curve.last_ten, optimum),
                     *_solved(curve, optimum),
                     mean(curve.early),
                     mean(curve.spread),
                 )
             )
     return f"{markdown(SCORES, rows)}\n\n{EXPLAINED.format(early=early_limit(results.episodes))}"
+
+
+def _bands(results: Results) -> list[str]:
+    """Return how often the picture's bands hold the mean; nothing where there is none."""
+    curves = [(curve, results.optimum[scenario]) for (_, scenario), curve in results.curves.items()]
+    held = [coverage(curve.scores, optimum) for curve, optimum in curves if len(curve.scores) > 1]
+    given = np.concatenate([own[~np.isnan(own)] for own in held] or [np.empty(0)])
+    return [BANDS.format(middle=100 * np.median(given), lowest=100 * given.min())] if len(given) else []
 
 
 def _solved(curve: Curve, optimum: float) -> tuple[str, str]:

@@ -85,6 +85,8 @@ Not judged: claim (f), which takes longer trainings, and (i), seconds, which man
 preset or scenario says otherwise: r_N and r_M, the order of a move and its block, what stops a walker, the single
 agent's later choices, the optimiser, the linear output, the initial weights, and that truncation bootstraps."""
 
+VERDICTS = (Verdict.HOLDS, Verdict.SLIGHTLY, Verdict.UNDECIDED, Verdict.FAILS)
+
 EACH = "for each choice, agent and scenario"
 
 
@@ -124,14 +126,25 @@ def report_on(choices: Sequence[JudgedChoice]) -> Report:
 
 def _findings(choices: Sequence[JudgedChoice]) -> Table:
     """Return the table of every line of every claim under every choice."""
-    header = ("choice", "value", "claim", "line", "measured", "p", "p_opposite", "p_opposite_holm", "verdict")
+    header = (
+        "choice",
+        "value",
+        "claim",
+        "line",
+        "measured",
+        "p",
+        "p_opposite",
+        "p_opposite_holm",
+        "p_small",
+        "verdict",
+    )
     rows = []
     for each in choices:
         for judged in each.claims:
             for finding in judged.findings:
                 evidence, tails = finding.evidence, finding.evidence.tails
                 measured = evidence.figures[-1][1] if evidence.figures else ""
-                own = (tails.claim, tails.against, finding.against) if tails else ("", "", "")
+                own = (tails.claim, tails.against, finding.against, finding.small) if tails else ("",) * 4
                 line = (evidence.what, measured, *own, finding.verdict.value)
                 rows.append((each.choice, each.value, judged.claim.letter, *line))
     return Table(header, rows)
@@ -142,7 +155,7 @@ def _shown(choices: Sequence[JudgedChoice]) -> Table:
     for base in choices[0].claims:
         counted = Counter(each.verdicts[base.claim.letter].value for each in choices[1:])
         others = ", ".join(f"{count} {verdict}" for verdict, count in sorted(counted.items()))
-        rows.append((f"({base.claim.letter})", base.claim.title, base.verdict.value, others))
+        rows.append((f"({base.claim.letter})", base.claim.title, base.words, others))
     return Table(("", "the paper's claim", "as it is", "under the other choices"), rows)
 
 
@@ -163,9 +176,9 @@ def _claims(choices: Sequence[JudgedChoice]) -> str:
     for judged in choices[0].claims:
         letter = judged.claim.letter
         others = [each.verdicts[letter] for each in choices[1:]]
-        counts = (str(others.count(verdict)) for verdict in (Verdict.HOLDS, Verdict.UNDECIDED, Verdict.FAILS))
+        counts = (str(others.count(verdict)) for verdict in VERDICTS)
         rows.append((f"({letter})", judged.claim.title, judged.verdict.value, *counts))
-    return markdown(("claim", "", "as it is", "otherwise: holds", "undecided", "does not hold"), rows)
+    return markdown(("claim", "", "as it is", "otherwise: holds", *(verdict.value for verdict in VERDICTS[1:])), rows)
 
 
 def _scores(choices: Sequence[JudgedChoice]) -> str:
@@ -183,9 +196,10 @@ def _scores(choices: Sequence[JudgedChoice]) -> str:
 
 LOOKS = {
     Verdict.HOLDS: ("#009E73", "✓"),
-    Verdict.FAILS: ("#D55E00", "✗"),
+    Verdict.SLIGHTLY: ("#8FD5C0", "✓"),
     Verdict.UNDECIDED: ("#DDDDDD", ""),
-    Verdict.NOT_RUN: ("white", ""),
+    Verdict.FAILS: ("#D55E00", "✗"),
+    Verdict.NOT_JUDGED: ("white", ""),
 }
 """Okabe and Ito's colours, and a sign for whoever can't tell them apart."""
 

@@ -14,7 +14,7 @@ from mc_nested.learn.preset import Preset
 from mc_nested.studies.arm import Arm
 from mc_nested.studies.change import Change, shipped_changes
 from mc_nested.studies.config import StudyConfig
-from mc_nested.studies.inference import Interval, difference_interval
+from mc_nested.studies.inference import Interval, mean_interval
 from mc_nested.studies.study import Report, Study, StudyOptions
 from mc_nested.studies.table import markdown, number_of_trials
 from mc_nested.studies.trial import Trial, on_each, optimum_of, trial_table
@@ -88,8 +88,8 @@ def effects_on(trials: Sequence[Trial], scenario: str) -> list[Effect]:
                 mean=float(mean.mean()),
                 final_difference=float(final.mean() - base_final.mean()),
                 mean_difference=float(mean.mean() - base_mean.mean()),
-                final_interval=difference_interval(final, base_final) if tested else None,
-                mean_interval=difference_interval(mean, base_mean) if tested else None,
+                final_interval=mean_interval(final - base_final) if tested else None,
+                mean_interval=mean_interval(mean - base_mean) if tested else None,
             )
         )
     return effects
@@ -112,8 +112,8 @@ HEADER = (
 
 LEGEND = """\
 Final: the greedy score of the policy that a run keeps. Mean over the training: over all of a run's greedy evaluations,
-so it is high where learning is early and steady. Both are means over the trials. Intervals are Welch's t of
-the difference from the same agent's base, and none is corrected for being one of many: of {many} intervals some
+so it is high where learning is early and steady. Both are means over the trials. Intervals are Student's t of
+the difference from the same agent's base, trial by trial, and none is corrected for being one of many: of {many} some
 {false:.0f} leave out 0 by chance alone. Best: the highest greedy score of any trial. At the
 optimum: trials that ever reached it. Episodes to it: the median over those."""
 

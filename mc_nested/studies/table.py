@@ -10,7 +10,7 @@ import numpy as np
 
 from mc_nested.arrays import Float64s
 from mc_nested.atomic_file import atomic_write
-from mc_nested.studies.inference import Interval
+from mc_nested.studies.inference import Interval, coverage, mean_interval, share_interval
 
 NONE = "-"
 
@@ -47,9 +47,19 @@ def mean(trials: Float64s) -> str:
     return two(float(trials.mean())) if len(trials) else NONE
 
 
-def interval(ends: Interval | None) -> str:
-    """Write an interval as its two ends."""
-    return f"{two(ends.low)} to {two(ends.high)}" if ends else NONE
+def interval(ends: Interval | None, held: float | None = None) -> str:
+    """Write an interval as its two ends, and how often such a one holds the mean, if that is known."""
+    written = f"{two(ends.low)} to {two(ends.high)}" if ends else NONE
+    return f"{written} (held {100 * held:.0f} %)" if ends and held is not None else written
+
+
+def interval_of_mean(trials: Float64s, highest: float) -> str:
+    """Write the interval of the mean over the trials (trials,), or how many are at ``highest`` where half are."""
+    if len(trials) > 1 and 2 * (at_highest := int((trials >= highest).sum())) >= len(trials):
+        share = interval(share_interval(at_highest, len(trials)))
+        return f"{at_highest} of {len(trials)} at {highest:g}, share {share}"
+    found = mean_interval(trials, highest)
+    return interval(found, float(coverage(trials[:, None], highest)[0]) if found else None)
 
 
 def probability(p: float | None) -> str:

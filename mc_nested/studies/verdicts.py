@@ -1,9 +1,12 @@
 """From the evidence on a claim to its verdict.
 
-A claim holds where all its lines do. That verdict is wrong only if a false line passes its test, which each line allows
-with a probability below α: an intersection-union test (Berger, 1982), which needs no correction. A claim does not hold
-where the opposite of any line is shown. For that verdict to be wrong, one error among all its lines is enough. So the
-tests of the opposites are corrected by Holm's method, within the claim.
+A claim has the weakest answer of its lines. To hold wrongly, a false line has to pass its test, which each allows with
+a probability below α: an intersection-union test (Berger, 1982), which needs no correction. A claim does not hold where
+the opposite of any line is shown. For that verdict to be wrong, one error among all its lines is enough. So the tests
+of the opposites are corrected by Holm's method, within the claim; and so are those of which lines are small.
+
+No line's opposite is shown where the line is: what is tested for and against excludes each other. So two samples of one
+truth seldom give opposite verdicts (tests/studies/claims/test_rates.py).
 
 Each claim is a question of its own, and none is an alternative to another: nothing is corrected across claims.
 """
@@ -20,9 +23,10 @@ class Verdict(Enum):
     """What the trials say about a claim."""
 
     HOLDS = "holds"
-    FAILS = "does not hold"
+    SLIGHTLY = "holds by less than a block"
     UNDECIDED = "undecided"
-    NOT_RUN = "not run"
+    FAILS = "does not hold"
+    NOT_JUDGED = "not judged"
 
 
 @dataclass(frozen=True)
@@ -37,6 +41,7 @@ class Evidence:
         counted: the verdict, if the figures are counted and need no test.
         missing: why there is neither, for the reader.
         effect: how large it is, where it is asked how many trials would decide it.
+        coverage: how often such an interval holds the mean, simulated from these trials; None for an exact one.
     """
 
     what: str
@@ -46,6 +51,7 @@ class Evidence:
     counted: Verdict | None = None
     missing: str = ""
     effect: TestedEffect | None = None
+    coverage: float | None = None
 
 
 @dataclass(frozen=True)
@@ -62,11 +68,18 @@ class Claim:
 
 @dataclass(frozen=True)
 class Finding:
-    """An evidence, the p of its opposite after Holm's correction within the claim, and its verdict."""
+    """An evidence, its verdict, and two p after Holm's correction within the claim: of its opposite, of being small."""
 
     evidence: Evidence
     against: float | None
+    small: float | None
     verdict: Verdict
+
+    @property
+    def words(self) -> str:
+        """The verdict, and what is shown beside where it is undecided."""
+        is_within = self.verdict is Verdict.UNDECIDED and self.small is not None and self.small < ALPHA
+        return f"{self.verdict.value}, within a block" if is_within else self.verdict.value
 
 
 @dataclass(frozen=True)
@@ -77,32 +90,43 @@ class JudgedClaim:
     findings: tuple[Finding, ...]
     verdict: Verdict
 
+    @property
+    def words(self) -> str:
+        """The verdict, and what is shown beside by all lines that leave it undecided."""
+        found = {finding.words for finding in self.findings if finding.verdict is self.verdict}
+        return found.pop() if len(found) == 1 and self.verdict is Verdict.UNDECIDED else self.verdict.value
+
 
 def judged(claim: Claim) -> JudgedClaim:
     """Judge the claim."""
-    opposites = iter(holm([evidence.tails.against for evidence in claim.evidence if evidence.tails]))
-    findings = []
-    for evidence in claim.evidence:
-        against = next(opposites) if evidence.tails else None
-        findings.append(Finding(evidence, against, verdict_of(evidence, against)))
+    opposites = _corrected([each.tails.against if each.tails else None for each in claim.evidence])
+    smalls = _corrected([each.tails.small if each.tails else None for each in claim.evidence])
+    findings = [Finding(*each, verdict_of(*each)) for each in zip(claim.evidence, opposites, smalls, strict=True)]
     return JudgedClaim(claim, tuple(findings), verdict_on_all([finding.verdict for finding in findings]))
 
 
-def verdict_of(evidence: Evidence, against: float | None) -> Verdict:
+def _corrected(p_values: Sequence[float | None]) -> list[float | None]:
+    corrected = iter(holm([p for p in p_values if p is not None]))
+    return [None if p is None else next(corrected) for p in p_values]
+
+
+def verdict_of(evidence: Evidence, against: float | None, small: float | None = None) -> Verdict:
     """Judge one line: it holds if its own test says so, else it fails if its opposite's corrected p does."""
     if evidence.counted:
         return evidence.counted
     if evidence.tails is None or against is None:
         return Verdict.UNDECIDED
     if evidence.tails.claim < ALPHA:
-        return Verdict.HOLDS
+        return Verdict.SLIGHTLY if small is not None and small < ALPHA else Verdict.HOLDS
     return Verdict.FAILS if against < ALPHA else Verdict.UNDECIDED
 
 
 def verdict_on_all(verdicts: Sequence[Verdict]) -> Verdict:
-    """Judge a claim: it holds if all its evidence does, and does not hold if any of it doesn't."""
+    """Judge a claim by the weakest of its lines: it does not hold if any of them doesn't."""
     if Verdict.FAILS in verdicts:
         return Verdict.FAILS
-    if all(verdict is Verdict.NOT_RUN for verdict in verdicts):
-        return Verdict.NOT_RUN
-    return Verdict.HOLDS if all(verdict is Verdict.HOLDS for verdict in verdicts) else Verdict.UNDECIDED
+    if all(verdict is Verdict.NOT_JUDGED for verdict in verdicts):
+        return Verdict.NOT_JUDGED
+    if Verdict.UNDECIDED in verdicts or Verdict.NOT_JUDGED in verdicts:
+        return Verdict.UNDECIDED
+    return Verdict.SLIGHTLY if Verdict.SLIGHTLY in verdicts else Verdict.HOLDS

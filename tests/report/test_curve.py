@@ -41,10 +41,16 @@ def test_the_interval_reaches_about_two_standard_errors_from_the_mean() -> None:
     assert high[0] - low[0] == pytest.approx(2 * 1.96 / 20, rel=0.15)
 
 
-def test_the_interval_ends_at_the_highest_score() -> None:
-    _, high = t_interval(np.array([[19.0, 5.0], [21.0, 6.0]]), highest=21.0)
+def test_the_interval_ends_at_the_highest_score_where_most_trials_are_below_it() -> None:
+    _, high = t_interval(np.array([[19.0, 5.0], [20.0, 6.0]]), highest=21.0)
     assert high[0] == 21.0
     assert 6.0 < high[1] < 21.0
+
+
+def test_there_is_no_interval_where_half_of_the_trials_are_at_the_highest_score() -> None:
+    low, high = t_interval(np.array([[21.0, 5.0], [19.0, 6.0]]), highest=21.0)
+    assert np.isnan([low[0], high[0]]).all()
+    assert np.isfinite([low[1], high[1]]).all()
 
 
 @pytest.mark.parametrize("trials", [1, 5])

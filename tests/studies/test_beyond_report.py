@@ -37,7 +37,7 @@ def test_the_report_has_every_claim_with_its_verdict_and_its_trials(written: Pat
     assert "Seed 7: 10 trials" in text
     for judged in claims:
         claim = judged.claim
-        row = f"| ({claim.letter}) | {claim.title} | **{judged.verdict.value}** | {in_words(judged)} |"
+        row = f"| ({claim.letter}) | {claim.title} | **{judged.words}** | {in_words(judged)} |"
         assert row in text
         assert f'The paper, section {claim.section}: "{claim.paper}".' in text
     assert "last ten until 1,200 steps" in text

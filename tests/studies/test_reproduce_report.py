@@ -10,7 +10,7 @@ from mc_nested.studies.reproduce import STUDY, report_on
 from mc_nested.studies.results import Results
 from mc_nested.studies.study import write_report
 from mc_nested.studies.table import Table
-from tests.studies.claims.made_results import level, made, the_papers
+from tests.studies.claims.made_results import Trial, level, made, the_papers
 
 
 def text_of(results: Results, longer: Results | None = None) -> str:
@@ -30,29 +30,45 @@ def test_the_headline_table_has_every_agent_and_scenario(lines: list[str]) -> No
     headline = [line for line in lines if "** of " in line]
     assert len(headline) == 9
     scenario, agent, final, interval, last, last_interval, solved, share, early, spread = cells(headline[0])
-    # Half of the trials an eighth above and half below: deviation 0.1369, and t with five degrees of freedom 2.5706.
-    assert (scenario, agent, final, interval) == ("line", "nested", "**20.00** of 21", "19.86 to 20.14")
-    assert (last, last_interval) == ("20.00", "19.86 to 20.14")
-    assert (solved, share) == ("0 of 6", "0.00 to 0.46")  # 1 - 0.025 ** (1 / 6)
+    # Half of the trials an eighth above and half below: deviation 0.1318, and t with nine degrees of freedom 2.2622.
+    # The mean is held unless one of ten draws or none is of one kind: 22 / 1,024.
+    assert (scenario, agent, final, interval) == ("line", "nested", "**20.00** of 21", "19.91 to 20.09 (held 98 %)")
+    assert (last, last_interval) == ("20.00", "19.91 to 20.09 (held 98 %)")
+    assert (solved, share) == ("0 of 10", "0.00 to 0.31")  # 1 - 0.025 ** (1 / 10)
     assert (early, spread) == ("12.00", "0.50")
+
+
+def test_trials_of_which_half_are_at_the_optimum_are_counted_and_have_no_interval_of_their_mean() -> None:
+    at_optimum = [Trial(12, 21, 0)] * 9 + [Trial(12, 15, 0)]
+    row = next(line for line in text_of(made({("nested", "line"): at_optimum})).splitlines() if "** of 21" in line)
+    # Clopper and Pearson's interval of 9 of 10.
+    counted = "9 of 10 at 21, share 0.55 to 1.00"
+    assert cells(row)[2:6] == ["**20.40** of 21", counted, "20.40", counted]
+
+
+def test_the_text_below_the_picture_says_how_often_its_bands_hold_the_mean(lines: list[str]) -> None:
+    assert any(line.startswith("The bands are 95 % intervals of the mean. There is none where half") for line in lines)
+    one_trial = text_of(made({key: trials[:1] for key, trials in the_papers().items()}))
+    assert "The bands are" not in one_trial
 
 
 def test_every_claim_has_its_quote_its_section_and_its_verdict() -> None:
     results = made(the_papers("line"))
     text = text_of(results)
     for judged in judge(results):
-        assert f"### ({judged.claim.letter}) {judged.claim.title}: {judged.verdict.value}\n" in text
-        assert f"| ({judged.claim.letter}) | {judged.claim.title} | **{judged.verdict.value}** |" in text
+        assert f"### ({judged.claim.letter}) {judged.claim.title}: {judged.words}\n" in text
+        assert f"| ({judged.claim.letter}) | {judged.claim.title} | **{judged.words}** |" in text
         assert f'section {judged.claim.section}: "{judged.claim.paper}"' in text
 
 
-def test_a_finding_shows_figures_interval_both_p_values_and_holms(lines: list[str]) -> None:
+def test_a_finding_shows_figures_interval_and_its_p_values(lines: list[str]) -> None:
     finding = next(line for line in lines if line.startswith("| line, early score"))
     assert cells(finding) == [
         "line, early score",
         "nested 12.00, hierarchical 7.00, difference 5.00",
-        "5.00 to 5.00",
-        "0.0011",  # one of the 924 splits of six and six
+        "5.00 to 5.00 (held 100 %)",
+        "0.0010",  # one of the 1,024 choices of the signs
+        "1",
         "1",
         "1",
         "holds",
@@ -60,11 +76,12 @@ def test_a_finding_shows_figures_interval_both_p_values_and_holms(lines: list[st
 
 
 def test_the_p_value_of_the_opposite_stands_beside_its_correction() -> None:
-    level_early = {key: [trial._replace(early=5.0) for trial in own] for key, own in the_papers().items()}
-    lines = text_of(made(level_early)).splitlines()
+    behind = {"nested": 4.5, "hierarchical": 5.0, "single": 5.0}
+    early = {key: [trial._replace(early=behind[key[0]]) for trial in own] for key, own in the_papers().items()}
+    lines = text_of(made(early)).splitlines()
     section = lines[next(at for at, line in enumerate(lines) if line.startswith("### (g)")) :]
     finding = next(line for line in section if line.startswith("| line, early score"))
-    assert cells(finding)[3:] == ["1", "0.0011", "0.0032", "does not hold"]  # three lines: 3 / 924
+    assert cells(finding)[3:] == ["1", "0.0010", "0.0029", "0.0029", "does not hold"]  # three lines: 3 / 1,024
 
 
 def test_costs_are_shown_with_their_ratio_to_the_nested_agents(lines: list[str]) -> None:
@@ -88,8 +105,8 @@ def test_a_slower_run_changes_only_lines_about_seconds() -> None:
     assert differing[-1].startswith("Seconds")
 
 
-def test_claim_f_is_not_run_without_the_long_run(lines: list[str]) -> None:
-    assert "### (f) more episodes bring the zigzag and the diamond to the optimum: not run" in lines
+def test_claim_f_is_not_judged_without_the_long_run(lines: list[str]) -> None:
+    assert "### (f) more episodes bring the zigzag and the diamond to the optimum: not judged" in lines
     assert any("needs a second run with ten times the episodes" in line for line in lines)
 
 
@@ -111,11 +128,11 @@ def test_the_report_says_when_trials_are_too_few_for_a_test(lines: list[str]) ->
     def few(trials: int) -> str:
         return text_of(made({key: own[:trials] for key, own in the_papers().items()}))
 
-    # Three of six can be drawn in 20 ways, and 1 / 20 is not below 0.05.
-    assert "With 3 trials no permutation test can come below 0.0500: no claim that rests on one can hold" in few(3)
-    # Four of eight in 70 ways: three lines are 3 / 70, less than 0.05, and four are more. (b) has six.
-    assert "With 4 trials no permutation test can come below 0.0143: a claim of 4 tested lines or more" in few(4)
-    assert not any("no permutation test can" in line for line in lines)
+    # Four signs can be chosen in 16 ways, and 1 / 16 is not below 0.05.
+    assert "With 4 trials no sign-flip test can come below 0.0625: no claim that rests on one can hold" in few(4)
+    # Six in 64 ways: three lines are 3 / 64, less than 0.05, and four are more. (b) has six.
+    assert "With 6 trials no sign-flip test can come below 0.0156: a claim of 4 tested lines or more" in few(6)
+    assert not any("no sign-flip test can" in line for line in lines)
 
 
 def test_a_scenarios_name_can_not_break_the_tables() -> None:

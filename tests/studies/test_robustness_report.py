@@ -57,7 +57,7 @@ def test_a_verdict_that_differs_from_the_bases_is_bold(choices: list[JudgedChoic
 
 def test_each_claim_counts_its_verdicts_under_the_other_choices(choices: list[JudgedChoice]) -> None:
     line = next(line for line in text_of(choices).splitlines() if line.startswith("| (a2) |"))
-    assert cells(line)[2:] == ["holds", "1", "0", "1"]
+    assert cells(line)[2:] == ["holds", "1", "0", "0", "1"]
 
 
 def test_scores_are_shown_with_the_optimum_of_the_choice(choices: list[JudgedChoice]) -> None:
@@ -71,7 +71,7 @@ def test_the_csv_file_has_every_line_of_every_claim(choices: list[JudgedChoice],
     write_report(tmp_path, STUDY, report_on(choices))
     with (tmp_path / "robustness.csv").open(newline="", encoding="utf-8") as file:
         header, *rows = list(csv.reader(file))
-    expected = "choice,value,claim,line,measured,p,p_opposite,p_opposite_holm,verdict"
+    expected = "choice,value,claim,line,measured,p,p_opposite,p_opposite_holm,p_small,verdict"
     assert header == expected.split(",")
     assert len(rows) == sum(len(judged.findings) for each in choices for judged in each.claims)
     row = next(row for row in rows if row[:3] == ["start", "a|b", "a2"])

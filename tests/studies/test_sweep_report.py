@@ -87,7 +87,7 @@ def test_the_table_line_of_a_base_has_no_differences() -> None:
 
 def test_the_report_names_the_preset_the_trials_and_the_number_of_intervals() -> None:
     assert "the preset `paper`, seed 0: 3 trials of 90 episodes" in TEXT
-    assert "of 12 intervals some 1 leave out 0" in TEXT
+    assert "of 12 some 1 leave out 0" in TEXT
     assert "## zig|zag, optimum 21" in TEXT
     assert "](sweep.png)" in TEXT
 

@@ -5,32 +5,33 @@ import pytest
 from mc_nested.studies.inference import Tails
 from mc_nested.studies.verdicts import Claim, Evidence, Verdict, judged, verdict_of, verdict_on_all
 
-HOLDS, FAILS, UNDECIDED, NOT_RUN = Verdict.HOLDS, Verdict.FAILS, Verdict.UNDECIDED, Verdict.NOT_RUN
+HOLDS, SLIGHTLY, UNDECIDED, FAILS, NOT_JUDGED = Verdict
 
 
 def claim(*evidence: Evidence) -> Claim:
     return Claim("x", "title", "quoted", "5.2", "rule", evidence)
 
 
-def p_of(for_it: float, against: float) -> Evidence:
-    return Evidence("what", tails=Tails(for_it, against))
+def p_of(for_it: float, against: float, small: float | None = None) -> Evidence:
+    return Evidence("what", tails=Tails(for_it, against, small))
 
 
 @pytest.mark.parametrize(
-    ("own", "against", "verdict"),
+    ("own", "against", "small", "verdict"),
     [
-        (0.049, 1, HOLDS),
-        (0.05, 1, UNDECIDED),
-        (1, 0.049, FAILS),
-        (1, 0.05, UNDECIDED),
-        (0.01, 0.01, HOLDS),
+        (0.049, 1, None, HOLDS),
+        (0.049, 1, 0.05, HOLDS),
+        (0.049, 1, 0.049, SLIGHTLY),
+        (0.05, 1, 0.049, UNDECIDED),
+        (1, 0.049, 0.049, FAILS),
+        (1, 0.05, None, UNDECIDED),
     ],
 )
-def test_a_verdict_needs_p_below_five_per_cent_and_the_claims_own_test_comes_first(
-    own: float, against: float, verdict: Verdict
+def test_a_line_has_one_of_four_verdicts_by_three_p_values_below_five_per_cent(
+    own: float, against: float, small: float | None, verdict: Verdict
 ) -> None:
-    # The opposite's own p is in the tails, its corrected one decides.
-    assert verdict_of(p_of(own, 0.001), against) is verdict
+    # The opposite's own p is in the tails, its corrected one decides; and so it is with that of a small difference.
+    assert verdict_of(p_of(own, 0.001, 0.001), against, small) is verdict
 
 
 def test_evidence_without_a_test_is_undecided() -> None:
@@ -46,15 +47,16 @@ def test_counted_evidence_needs_no_test(verdict: Verdict) -> None:
     ("verdicts", "verdict"),
     [
         ([HOLDS, HOLDS], HOLDS),
-        ([HOLDS, UNDECIDED], UNDECIDED),
+        ([HOLDS, SLIGHTLY], SLIGHTLY),
+        ([SLIGHTLY, UNDECIDED], UNDECIDED),
         ([HOLDS, UNDECIDED, FAILS], FAILS),
-        ([HOLDS, NOT_RUN], UNDECIDED),
-        ([FAILS, NOT_RUN], FAILS),
-        ([NOT_RUN, NOT_RUN], NOT_RUN),
-        ([], NOT_RUN),
+        ([HOLDS, NOT_JUDGED], UNDECIDED),
+        ([FAILS, NOT_JUDGED], FAILS),
+        ([NOT_JUDGED, NOT_JUDGED], NOT_JUDGED),
+        ([], NOT_JUDGED),
     ],
 )
-def test_a_claim_holds_only_if_all_its_evidence_holds(verdicts: list[Verdict], verdict: Verdict) -> None:
+def test_a_claim_has_the_weakest_verdict_of_its_lines(verdicts: list[Verdict], verdict: Verdict) -> None:
     assert verdict_on_all(verdicts) is verdict
 
 
@@ -75,3 +77,17 @@ def test_one_opposite_fails_a_claim_after_correction_for_all_opposites_in_the_cl
 def test_an_opposite_that_fails_a_short_claim_may_leave_a_longer_one_undecided() -> None:
     assert judged(claim(p_of(1, 0.03))).verdict is FAILS
     assert judged(claim(p_of(1, 0.03), p_of(1, 0.9))).verdict is UNDECIDED
+
+
+def test_which_lines_are_small_is_corrected_within_the_claim() -> None:
+    found = judged(claim(p_of(0.01, 1, 0.03), p_of(0.01, 1, 0.02), p_of(0.01, 1)))
+    assert [finding.small for finding in found.findings] == pytest.approx([0.04, 0.04, None])
+    assert found.verdict is SLIGHTLY
+    assert judged(claim(p_of(0.01, 1, 0.03), p_of(0.01, 1, 0.9))).verdict is HOLDS
+
+
+def test_an_undecided_claim_is_within_a_block_where_all_its_undecided_lines_are() -> None:
+    within, open_, held = p_of(0.5, 0.5, 0.001), p_of(0.5, 0.5, 0.5), p_of(0.01, 1, 1)
+    assert judged(claim(within, held)).words == "undecided, within a block"
+    assert judged(claim(within, open_)).words == "undecided"
+    assert judged(claim(held)).words == "holds"

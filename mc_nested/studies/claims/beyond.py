@@ -4,6 +4,8 @@ from collections.abc import Mapping, Sequence
 from functools import partial
 from typing import get_args
 
+import numpy as np
+
 from mc_nested.arrays import Float64s
 from mc_nested.learn.builders import NETWORKS, Networks
 from mc_nested.studies.claims.arm_results import ArmResults, Arms, Budget
@@ -11,14 +13,14 @@ from mc_nested.studies.claims.contests import (
     HIERARCHICAL,
     MARGIN,
     NESTED,
-    ONE_TRIAL,
     OUTPERFORMED,
     SINGLE,
     Pair,
     ahead_by_score,
     compared,
+    paired,
 )
-from mc_nested.studies.inference import contrast, mostly, no_worse, share_interval
+from mc_nested.studies.inference import ahead, mostly, no_worse, share_interval
 from mc_nested.studies.power import MeanEffect, ShareEffect
 from mc_nested.studies.verdicts import Claim, Evidence, JudgedClaim, Verdict, judged
 
@@ -43,17 +45,16 @@ COOPERATING = "multi-agent scenarios where there are many nested agents that are
 
 MOSTLY = "Exact binomial tests of the share of trials{of}. Holds: it is above one half. Does not hold: it is below."
 ABOVE = (
-    "Studentised permutation tests of the difference of the means of each trial's last ten evaluations. Holds: it is "
-    "above 0. Does not hold: it is below one block, and not shown to be above 0."
+    "Sign-flip tests of the mean difference, within pairs of trials, of the last ten evaluations. Holds: it is above "
+    "0; by less than a block: it is also shown to be less. Does not hold: it is below 0."
 )
 NOT_BEHIND = (
-    "Studentised permutation tests of the difference of the means of each trial's best greedy score, with a margin of "
-    "one block. Holds: it is above -1. Does not hold: it is below -1. The paper names no measure; this is our reading "
-    "of applicable."
+    "Sign-flip tests of the mean difference, within pairs of trials, of the best greedy score. Holds: it is above -1 "
+    "block. Does not hold: it is below. The paper names no measure; this is our reading of applicable."
 )
 GROWS = (
-    "Nested's lead: the difference of the means of {measure}. Welch and Satterthwaite's t test of how much larger it "
-    "is with the most main actions than with the fewest. Holds: the change is above 0. Does not hold: it is below."
+    "Nested's lead: the difference, within pairs of trials, of {measure}. Sign-flip tests of how much larger it is "
+    "with the most main actions than with the fewest. Holds: the change is above 0. Does not hold: it is below."
 )
 LATE = "each trial's last ten evaluations until it had spent as many {of} as every trial of the two had in the end"
 EARLY = "each trial's mean over its evaluations until a third of the {of} that every trial of the two had in the end"
@@ -243,16 +244,19 @@ def _above(arm: ArmResults, other: ArmResults, where: str) -> Evidence:
 
 
 def above(what: str, names: tuple[str, str], pair: Pair) -> Evidence:
-    """Return whether the first scores above the second; the opposite is that it is less than a block above."""
-    lead = _difference(pair)
-    return compared(what, names, pair, ahead_by_score, partial(MeanEffect, lead, MARGIN - lead))
+    """Return whether the first scores above the second; the opposite is that it is below."""
+    return compared(what, names, pair, ahead_by_score, MeanEffect)
 
 
 def not_behind(what: str, names: tuple[str, str], pair: Pair) -> Evidence:
     """Return whether the first scores less than a block below the second; the opposite is that it is further below."""
-    lead = _difference(pair)
-    effect = partial(MeanEffect, lead + MARGIN, -lead - MARGIN)
-    return compared(what, names, pair, lambda left, right: no_worse(left, right, MARGIN), effect)
+    return compared(
+        what,
+        names,
+        pair,
+        partial(no_worse, margin=MARGIN),
+        lambda difference, spread: MeanEffect(difference + MARGIN, spread),
+    )
 
 
 def mostly_at_the_optimum(what: str, optimum: float, scores: Float64s) -> Evidence:
@@ -266,17 +270,6 @@ def mostly_at_the_optimum(what: str, optimum: float, scores: Float64s) -> Eviden
 
 def lead_grows(what: str, leads: Mapping[int, Pair]) -> Evidence:
     """Return whether the first's lead on the second is larger at the highest of these numbers than at the lowest."""
-    low, high = min(leads), max(leads)
-    figures = tuple((f"lead with {number}", _difference(pair)) for number, pair in leads.items())
-    change = _difference(leads[high]) - _difference(leads[low])
-    figures = (*figures, ("change", change))
-    groups, weights = (*leads[high], *leads[low]), (1.0, -1.0, -1.0, 1.0)
-    if min(map(len, groups)) < 2:
-        return Evidence(what, figures, missing=ONE_TRIAL)
-    tails, interval = contrast(groups, weights)
-    spreads = tuple(float(group.std(ddof=1)) for group in groups)
-    return Evidence(what, figures, interval, tails, effect=MeanEffect(change, -change, spreads, is_permuted=False))
-
-
-def _difference(pair: Pair) -> float:
-    return float(pair[0].mean() - pair[1].mean())
+    within = {number: np.subtract(*paired(pair)) for number, pair in leads.items()}
+    names = f"lead with {max(leads)}", f"lead with {min(leads)}"
+    return compared(what, names, (within[max(leads)], within[min(leads)]), ahead, MeanEffect)

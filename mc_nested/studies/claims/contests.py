@@ -1,9 +1,10 @@
 """Two agents beside each other on a scenario, by one of the measures of a trial."""
 
 from collections.abc import Callable, Mapping
+from functools import partial
 
 from mc_nested.arrays import Float64s
-from mc_nested.studies.inference import Tails, ahead, alike, difference_interval
+from mc_nested.studies.inference import Tails, ahead, alike, coverage, mean_interval
 from mc_nested.studies.measures import Curve
 from mc_nested.studies.power import TestedEffect
 from mc_nested.studies.verdicts import Evidence, Verdict
@@ -39,22 +40,19 @@ Pair = tuple[Float64s, Float64s]
 
 ONE_TRIAL = "a single trial can't be tested"
 
-Contest = Callable[[Float64s, Float64s], Tails]
+Contest = Callable[[Float64s], Tails]
+"""A test of the differences within pairs, (pairs,)."""
+
+ahead_by_score: Contest = partial(ahead, margin=MARGIN)
+"""Whether the first's score is above the second's."""
+
+alike_in_score: Contest = partial(alike, margin=MARGIN)
+"""Whether the scores differ by less than a block."""
 
 
-def ahead_by_score(left: Float64s, right: Float64s) -> Tails:
-    """Return whether the first's score is above the second's."""
-    return ahead(left, right, MARGIN)
-
-
-def alike_in_score(left: Float64s, right: Float64s) -> Tails:
-    """Return whether the scores differ by less than a block."""
-    return alike(left, right, MARGIN)
-
-
-def less(left: Float64s, right: Float64s) -> Tails:
+def less(differences: Float64s) -> Tails:
     """Return whether the first has less of it. Without a margin: nothing is to it what a block is to a score."""
-    return ahead(right, left, 0.0)
+    return ahead(-differences)
 
 
 def contest_of(curves: Curves, scenario: str, measure: str, agents: tuple[str, str], contest: Contest) -> Evidence:
@@ -62,7 +60,7 @@ def contest_of(curves: Curves, scenario: str, measure: str, agents: tuple[str, s
     what = f"{scenario}, {measure}"
     absent = [agent for agent in agents if (agent, scenario) not in curves]
     if absent:
-        return Evidence(what, counted=Verdict.NOT_RUN, missing=f"{' and '.join(absent)} not trained there")
+        return Evidence(what, counted=Verdict.NOT_JUDGED, missing=f"{' and '.join(absent)} not trained there")
     left, right = (MEASURES[measure](curves[agent, scenario]) for agent in agents)
     if not len(left) or not len(right):
         return Evidence(what, missing="too few evaluations for this measure")
@@ -74,17 +72,30 @@ def compared(
     agents: tuple[str, str],
     trials: Pair,
     contest: Contest,
-    effect: Callable[[tuple[float, ...]], TestedEffect] | None = None,
+    effect: Callable[[float, float], TestedEffect] | None = None,
 ) -> Evidence:
     """Return what the trials of both say, (trials,) each; at least one of each.
 
-    ``effect``: from their spreads, the effect that says how many trials would decide it.
+    ``effect``: of the mean and the spread of the differences, what says how many trials would decide it.
     """
-    left, right = trials
-    means = float(left.mean()), float(right.mean())
-    figures = (*zip(agents, means, strict=True), ("difference", means[0] - means[1]))
-    if len(left) < 2 or len(right) < 2:
+    left, right = paired(trials)
+    differences, means = left - right, (float(left.mean()), float(right.mean()))
+    difference = means[0] - means[1]
+    figures = (*zip(agents, means, strict=True), ("difference", difference))
+    if len(differences) < 2:
         return Evidence(what, figures, missing=ONE_TRIAL)
-    spreads = tuple(float(group.std(ddof=1)) for group in trials)
-    tested = effect(spreads) if effect else None
-    return Evidence(what, figures, difference_interval(left, right), contest(left, right), effect=tested)
+    return Evidence(
+        what,
+        figures,
+        mean_interval(differences),
+        contest(differences),
+        effect=effect(difference, float(differences.std(ddof=1))) if effect else None,
+        coverage=float(coverage(differences[:, None])[0]),
+    )
+
+
+def paired(trials: Pair) -> Pair:
+    """Return the trials of both that have a partner, (pairs,) each: those of one number are a pair."""
+    left, right = trials
+    pairs = min(len(left), len(right))
+    return left[:pairs], right[:pairs]

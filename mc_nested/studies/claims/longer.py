@@ -38,9 +38,9 @@ def trials_solved(final: Float64s, optimum: float) -> int:
 def _share_solved(runs: Sequence[tuple[Results, Curves]], agent: str, scenario: str) -> Evidence:
     what = f"{scenario}, {agent}, trials at the optimum"
     if len(runs) < 2:
-        return Evidence(what, counted=Verdict.NOT_RUN, missing="needs a second run with ten times the episodes")
+        return Evidence(what, counted=Verdict.NOT_JUDGED, missing="needs a second run with ten times the episodes")
     if any((agent, scenario) not in curves for _, curves in runs):
-        return Evidence(what, counted=Verdict.NOT_RUN, missing="not trained")
+        return Evidence(what, counted=Verdict.NOT_JUDGED, missing="not trained")
     finals = [curves[agent, scenario].final for _, curves in runs]
     if not all(len(final) for final in finals):
         return Evidence(what, missing="too few evaluations for this measure")

@@ -19,12 +19,13 @@ from mc_nested.studies.claims.contests import (
 from mc_nested.studies.verdicts import Claim
 
 AHEAD = (
-    "Studentised permutation tests of the difference of the means. Holds: it is above 0. Does not hold: it is below "
-    "one block (so behind, or level), and not shown to be above 0."
+    "Sign-flip tests of the mean difference within pairs of trials. Holds: it is above 0; by less than a block: it is "
+    "also shown to be less. Does not hold: it is below 0. Undecided, within a block: less than a block either way is "
+    "all that is shown."
 )
 ALIKE = (
-    "Two one-sided studentised permutation tests with a margin of one block. Holds: the means differ by less. Does not "
-    "hold: they differ by more."
+    "Sign-flip tests of the mean difference within pairs of trials. Holds: it is less than a block either way. Does "
+    "not hold: it is more than a block."
 )
 
 MEASURED = {

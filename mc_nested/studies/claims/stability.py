@@ -15,8 +15,8 @@ from mc_nested.studies.claims.contests import (
 from mc_nested.studies.verdicts import Claim
 
 STEADIER = (
-    "Studentised permutation tests of the difference of the means of each trial's standard deviation over its "
-    "evaluations in the last third of the training. Holds: it is below 0. Does not hold: it is above 0."
+    "Sign-flip tests of the mean difference, within pairs of trials, of the standard deviation over the evaluations in "
+    "the last third of the training. Holds: it is below 0. Does not hold: it is above 0."
 )
 
 

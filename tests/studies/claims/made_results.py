@@ -64,18 +64,18 @@ def scores_of(trial: Trial) -> list[float]:
     return [early] * 3 + [final] * 3 + [final + spread, final - spread, final]
 
 
-def level(score: float, trials: int = 6, early: float = 5.0, spread: float = 1.0) -> list[Trial]:
+def level(score: float, trials: int = 10, early: float = 5.0, spread: float = 1.0) -> list[Trial]:
     """Return trials whose final scores are ``score``, and an eighth of a block more or less in turn."""
     return [Trial(early, score + (0.125, -0.125)[trial % 2], spread) for trial in range(trials)]
 
 
 def scattered(score: float, early: float = 5.0) -> list[Trial]:
     """Return trials from six blocks below ``score`` to six above: they decide little."""
-    return [Trial(early + off, score + off, spread=4 + off / 2) for off in (-6, 6, -3, 3, -1, 1)]
+    return [Trial(early + off, score + off, spread=4 + off / 2) for off in (-6, 6, -5, 5, -3, 3, -2, 2, -1, 1)]
 
 
 def the_papers(*scenarios: str) -> dict[tuple[str, str], list[Trial]]:
-    """Make six trials of each agent on those scenarios, all where none is named, in which the paper's claims hold."""
+    """Make ten trials of each agent on those scenarios, all where none is named, in which the paper's claims hold."""
     trials = {
         ("nested", "line"): level(20, early=12, spread=0.5),
         ("hierarchical", "line"): level(17, early=7, spread=1.5),

@@ -10,7 +10,7 @@ from mc_nested.studies.results import Results
 from mc_nested.studies.verdicts import JudgedClaim, Verdict
 from tests.studies.claims.made_results import Trial, level, made, scattered, the_papers
 
-HOLDS, FAILS, UNDECIDED, NOT_RUN = Verdict.HOLDS, Verdict.FAILS, Verdict.UNDECIDED, Verdict.NOT_RUN
+HOLDS, SLIGHTLY, UNDECIDED, FAILS, NOT_JUDGED = Verdict
 
 
 TESTED = ("a1", "a2", "a3", "b", "c1", "c2", "c3", "c4", "d1", "d2", "g", "h")
@@ -33,11 +33,11 @@ def test_results_like_the_papers_confirm_its_claims_except_two_about_cost() -> N
     assert verdicts(made(the_papers())) == {
         **dict.fromkeys(["a1", "a2", "a3", "b", "c1", "c2", "c3", "c4", "d1", "d2", "e1"], HOLDS),
         "e2": FAILS,  # the single agent has one network
-        "f": NOT_RUN,
+        "f": NOT_JUDGED,
         "g": HOLDS,
         "h": HOLDS,
-        "i1": HOLDS,
-        "i2": FAILS,
+        "i1": NOT_JUDGED,
+        "i2": NOT_JUDGED,
     }
 
 
@@ -45,7 +45,8 @@ def test_results_like_the_papers_confirm_its_claims_except_two_about_cost() -> N
     ("hierarchical", "early", "final"),
     [
         (level(17, early=7), HOLDS, HOLDS),
-        (level(20, early=12), FAILS, FAILS),  # level with the nested agent
+        (level(20, early=12), UNDECIDED, UNDECIDED),  # level with the nested agent
+        (level(19.5, early=11.5), SLIGHTLY, SLIGHTLY),
         (level(17, early=15), FAILS, HOLDS),  # ahead of it early
         (level(21, early=7), HOLDS, FAILS),  # ahead of it at the end
         (scattered(19, early=11), UNDECIDED, UNDECIDED),
@@ -72,14 +73,14 @@ def test_the_last_evaluation_and_the_mean_of_the_last_ten_can_differ_in_verdict(
     found = verdicts(ending("nested", 10.0))
     assert (found["a2"], found["a3"]) == (FAILS, FAILS)
     found = verdicts(ending("hierarchical", 20.0))
-    assert (found["a2"], found["a3"]) == (FAILS, HOLDS)
+    assert (found["a2"], found["a3"]) == (UNDECIDED, HOLDS)
 
 
 @pytest.mark.parametrize(
     ("hierarchical", "verdict"),
     [
         (level(16), HOLDS),
-        (solved(*[16.9] * 6), HOLDS),  # less than a block above
+        (solved(*[16.9] * 10), HOLDS),  # less than a block above
         (level(20), FAILS),
         (level(12), FAILS),
         (level(16, early=9), FAILS),
@@ -92,7 +93,7 @@ def test_agents_count_as_alike_within_a_block_both_early_and_at_the_end(
 ) -> None:
     results = made(
         {
-            ("nested", "zigzag"): solved(*[16.0] * 6),
+            ("nested", "zigzag"): solved(*[16.0] * 10),
             ("hierarchical", "zigzag"): hierarchical,
             ("nested", "diamond"): level(18),
             ("hierarchical", "diamond"): level(18),
@@ -103,7 +104,13 @@ def test_agents_count_as_alike_within_a_block_both_early_and_at_the_end(
 
 @pytest.mark.parametrize(
     ("single", "verdict"),
-    [(level(9), HOLDS), (level(18), FAILS), (level(23), FAILS), (scattered(17), UNDECIDED)],
+    [
+        (level(9), HOLDS),
+        (level(17.5), SLIGHTLY),
+        (level(18), UNDECIDED),
+        (level(23), FAILS),
+        (scattered(17), UNDECIDED),
+    ],
 )
 def test_claims_that_single_is_below_both_agents_follow_singles_scores(single: list[Trial], verdict: Verdict) -> None:
     found = verdicts(made({**the_papers("diamond"), ("single", "diamond"): single}))
@@ -111,12 +118,14 @@ def test_claims_that_single_is_below_both_agents_follow_singles_scores(single: l
 
 
 def test_one_agent_can_be_above_single_and_the_other_not() -> None:
-    found = verdicts(made({**the_papers("diamond"), ("hierarchical", "diamond"): level(9)}))
+    found = verdicts(made({**the_papers("diamond"), ("hierarchical", "diamond"): level(7)}))
     assert [found[letter] for letter in ("c1", "c2", "c3", "c4")] == [HOLDS, FAILS, HOLDS, FAILS]
 
 
 @pytest.mark.parametrize(
-    ("early", "verdict"), [(2.0, HOLDS), (12.0, FAILS), (15.0, FAILS)], ids=["behind", "level", "ahead"]
+    ("early", "verdict"),
+    [(2.0, HOLDS), (11.5, SLIGHTLY), (12.0, UNDECIDED), (15.0, FAILS)],
+    ids=["behind", "less than a block behind", "level", "ahead"],
 )
 def test_the_claim_of_an_early_lead_over_single_follows_singles_early_scores(early: float, verdict: Verdict) -> None:
     agents = {("nested", "line"): level(20, early=12), ("single", "line"): level(13, early=early)}
@@ -148,12 +157,11 @@ def test_findings_give_the_measured_figures_and_their_interval() -> None:
     assert early.evidence.figures == (("nested", 12), ("hierarchical", 7), ("difference", 5))
     assert early.evidence.interval == (5, 5)
     assert final.evidence.figures == (("nested", 20), ("hierarchical", 17), ("difference", 3))
-    assert final.evidence.interval is not None
-    assert 2.75 <= final.evidence.interval.low < 3 < final.evidence.interval.high <= 3.25
+    assert final.evidence.interval == (3, 3)  # an eighth of a block more or less in turn, both alike
 
 
 def test_each_line_of_a_claim_is_decided_by_its_own_p_value() -> None:
-    # 1 of 924 splits each: nothing is multiplied, though there are six of (b) and many claims.
+    # 1 of 1,024 choices of the signs each: nothing is multiplied, though there are six of (b) and many claims.
     held = judged_claim("b", made(the_papers()))
     assert len(held.findings) == 6
     assert all(finding.verdict is HOLDS for finding in held.findings)
@@ -201,7 +209,7 @@ def test_the_claim_about_more_episodes_follows_the_share_of_trials_at_the_optimu
 
 def test_a_single_trial_leaves_every_test_undecided() -> None:
     results = made({key: trials[:1] for key, trials in the_papers().items()})
-    counted = {"e1": HOLDS, "e2": FAILS, "i1": HOLDS, "i2": FAILS}
+    counted = {"e1": HOLDS, "e2": FAILS, "i1": NOT_JUDGED, "i2": NOT_JUDGED}
     assert verdicts(results, results) == {letter: counted.get(letter, UNDECIDED) for letter in (*TESTED, *counted, "f")}
 
 
@@ -212,10 +220,10 @@ def test_two_trials_are_too_few_for_any_verdict() -> None:
 
 def test_one_scenario_alone_counts_in_the_claims_about_that_scenario() -> None:
     assert verdicts(made(the_papers("zigzag"))) == {
-        **dict.fromkeys(["a1", "a2", "a3", "f"], NOT_RUN),
+        **dict.fromkeys(["a1", "a2", "a3", "f", "i1", "i2"], NOT_JUDGED),
         "b": UNDECIDED,  # the diamond is missing
-        **dict.fromkeys(["c1", "c2", "c3", "c4", "d1", "d2", "e1", "g", "h", "i1"], HOLDS),
-        **dict.fromkeys(["e2", "i2"], FAILS),
+        **dict.fromkeys(["c1", "c2", "c3", "c4", "d1", "d2", "e1", "g", "h"], HOLDS),
+        "e2": FAILS,
     }
 
 
@@ -224,13 +232,13 @@ def test_a_users_scenario_counts_in_the_claims_about_every_scenario() -> None:
     spreads = {"nested": 0.5, "hierarchical": 2.0, "single": 3.0}
     results = made({key: level(score, spread=spreads[key[0]]) for key, score in agents.items()})
     found = verdicts(results)
-    assert {found[letter] for letter in ("a1", "a2", "a3", "b", "f")} == {NOT_RUN}
+    assert {found[letter] for letter in ("a1", "a2", "a3", "b", "f")} == {NOT_JUDGED}
     assert {found[letter] for letter in ("c1", "c2", "c3", "c4", "d1", "d2", "e1")} == {HOLDS}
 
 
 def test_one_agent_alone_counts_in_no_claim() -> None:
     results = made({key: trials for key, trials in the_papers().items() if key[0] == "nested"})
-    assert set(verdicts(results).values()) == {NOT_RUN}
+    assert set(verdicts(results).values()) == {NOT_JUDGED}
 
 
 def test_a_training_without_evaluations_leaves_claims_undecided() -> None:
