@@ -22,8 +22,8 @@ from mc_nested.studies.table import Table, markdown, mean, number_of_trials
 from mc_nested.studies.trial import Trial
 from mc_nested.studies.verdicts import JudgedClaim, Verdict
 
-LEFT_OUT = ("f", "i1", "i2")
-"""Claims that are not judged again: of a longer training, and of seconds, which a batch of many choices shares."""
+LEFT_OUT = "f"
+"""The claim that is not judged again: of a longer training."""
 
 
 def arms(options: StudyOptions) -> list[Arm]:
@@ -64,7 +64,7 @@ class JudgedChoice:
 
 def judged_under(choice: str, value: str, results: Results) -> JudgedChoice:
     """Judge the results under a choice."""
-    claims = tuple(judged for judged in judge(results) if judged.claim.letter not in LEFT_OUT)
+    claims = tuple(judged for judged in judge(results) if judged.claim.letter != LEFT_OUT)
     return JudgedChoice(choice, value, results, claims)
 
 
@@ -81,7 +81,7 @@ Each line is the paper's experiment with one choice made otherwise, for all thre
 not that of the first line. Every claim is judged as in the report of `mc-nested reproduce`, at α = {alpha:g}, each line
 by itself: of so many verdicts some differ by chance alone. Undecided means that these trials don't show it.
 
-Not judged: claim (f), which takes longer trainings, and (i), seconds, which many choices share. Not varied, since no
+Not judged: claim (f), which takes longer trainings. Not varied, since no
 preset or scenario says otherwise: r_N and r_M, the order of a move and its block, what stops a walker, the single
 agent's later choices, the optimiser, the linear output, the initial weights, and that truncation bootstraps."""
 

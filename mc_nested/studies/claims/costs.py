@@ -1,4 +1,8 @@
-"""The claims about costs: networks and parameters (e), what replays hold (h), and seconds (i)."""
+"""The claims about costs: networks and parameters (e), and what replays hold (h).
+
+Seconds (i) depend on what is compiled first, on the size of batches and on what else the machine does: they are judged
+where the agents are timed by turns (scripts/benches/costs.py).
+"""
 
 from collections.abc import Mapping, Sequence
 
@@ -25,22 +29,6 @@ SMALLER = (
     "its agents' together, in 10⁶ bytes. Holds: it is below 0. Does not hold: it is above 0. A step is kept once, "
     "whoever made it, so this grows with the steps that were played; memory for networks is in claim (e1)."
 )
-
-QUICKER = (
-    "Seconds of a core, all trials on all scenarios together. They aren't judged: they count what is compiled first, "
-    "batches are of unequal size, and what else the machine did isn't known. `python scripts/bench.py costs` times "
-    "whole trainings, the agents by turns, and judges them."
-)
-QUICKER_THAN = {
-    HIERARCHICAL: (
-        (
-            "we avoided having to train separate neural networks for each action of the main agent, which was less "
-            "computationally expensive"
-        ),
-        "5.2",
-    ),
-    SINGLE: FEWER_THAN[SINGLE],
-}
 
 MEGA = 1e6
 
@@ -77,21 +65,6 @@ def smaller_replays(costs: Costs, scenarios: Sequence[str]) -> Claim:
     )
 
 
-def quicker(costs: Costs, scenarios: Sequence[str]) -> list[Claim]:
-    """Return claims (i1) and (i2), against one of the other agents each: seconds of training."""
-    return [
-        Claim(
-            f"i{number}",
-            f"nested trains in fewer seconds than {other}",
-            paper,
-            section,
-            QUICKER,
-            (_seconds(costs, scenarios, other),),
-        )
-        for number, (other, (paper, section)) in enumerate(QUICKER_THAN.items(), start=1)
-    ]
-
-
 def _counts(costs: Costs, scenarios: Sequence[str], of: str, other: str) -> list[Evidence]:
     counted: dict[tuple[int, int], list[str]] = {}
     for scenario in scenarios:
@@ -116,12 +89,3 @@ def _replays(costs: Costs, scenario: str) -> Evidence:
     if not len(left) or not len(right):
         return Evidence(what, counted=Verdict.NOT_JUDGED, missing=UNMEASURED)
     return compared(what, agents, (left, right), less)
-
-
-def _seconds(costs: Costs, scenarios: Sequence[str], other: str) -> Evidence:
-    what = f"{', '.join(scenarios)}, seconds"
-    if any((agent, scenario) not in costs for agent in (NESTED, other) for scenario in scenarios):
-        return Evidence(what, counted=Verdict.NOT_JUDGED, missing="not trained")
-    ours, theirs = (sum(costs[agent, scenario].seconds for scenario in scenarios) for agent in (NESTED, other))
-    figures = ((NESTED, ours), (other, theirs), ("ratio", ours / theirs if theirs else 1.0))
-    return Evidence(what, figures, counted=Verdict.NOT_JUDGED)

@@ -1,6 +1,6 @@
 """Every claim of the paper about its three agents, with its verdict."""
 
-from mc_nested.studies.claims.costs import fewer_parts, quicker, smaller_replays
+from mc_nested.studies.claims.costs import fewer_parts, smaller_replays
 from mc_nested.studies.claims.longer import solved_in_the_end
 from mc_nested.studies.claims.scores import (
     above_single,
@@ -25,6 +25,5 @@ def judge(results: Results, longer: Results | None = None) -> tuple[JudgedClaim,
         solved_in_the_end(results, longer),
         ahead_of_single_early(curves, results.scenarios),
         smaller_replays(costs, results.scenarios),
-        *quicker(costs, results.scenarios),
     )
     return tuple(judged(claim) for claim in claims)

@@ -36,8 +36,6 @@ def test_results_like_the_papers_confirm_its_claims_except_two_about_cost() -> N
         "f": NOT_JUDGED,
         "g": HOLDS,
         "h": HOLDS,
-        "i1": NOT_JUDGED,
-        "i2": NOT_JUDGED,
     }
 
 
@@ -209,7 +207,7 @@ def test_the_claim_about_more_episodes_follows_the_share_of_trials_at_the_optimu
 
 def test_a_single_trial_leaves_every_test_undecided() -> None:
     results = made({key: trials[:1] for key, trials in the_papers().items()})
-    counted = {"e1": HOLDS, "e2": FAILS, "i1": NOT_JUDGED, "i2": NOT_JUDGED}
+    counted = {"e1": HOLDS, "e2": FAILS}
     assert verdicts(results, results) == {letter: counted.get(letter, UNDECIDED) for letter in (*TESTED, *counted, "f")}
 
 
@@ -220,7 +218,7 @@ def test_two_trials_are_too_few_for_any_verdict() -> None:
 
 def test_one_scenario_alone_counts_in_the_claims_about_that_scenario() -> None:
     assert verdicts(made(the_papers("zigzag"))) == {
-        **dict.fromkeys(["a1", "a2", "a3", "f", "i1", "i2"], NOT_JUDGED),
+        **dict.fromkeys(["a1", "a2", "a3", "f"], NOT_JUDGED),
         "b": UNDECIDED,  # the diamond is missing
         **dict.fromkeys(["c1", "c2", "c3", "c4", "d1", "d2", "e1", "g", "h"], HOLDS),
         "e2": FAILS,
