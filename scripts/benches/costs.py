@@ -1,8 +1,8 @@
 """Seconds that a training takes, the paper's three agents by turns: what claims (i) are judged by.
 
 The paper, section 5.2, of nested and hierarchical: "we avoided having to train separate neural networks for each action
-of the main agent, which was less computationally expensive"; of all three: nested "outperformed" the others "in terms of
-training stability, converged score, and computational expense".
+of the main agent, which was less computationally expensive". Of all three: nested "outperformed" the others "in terms
+of training stability, converged score, and computational expense".
 
 A turn is a whole training of the paper's designs by one agent, all its trials as one batch in this process, so that all
 batches are of one size. A round has a turn of each agent, in another order each round and with a seed of its own. A
