@@ -1,7 +1,6 @@
 """A training's folder: config.toml, episodes.csv, evaluations.csv, summary.json and checkpoint/."""
 
 import csv
-import json
 import shutil
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
@@ -20,8 +19,9 @@ from mc_nested.errors import RunError, ScenarioError
 from mc_nested.learn.agents import AGENT_SPECS, Agent
 from mc_nested.learn.episode_log import EpisodeRow, EvaluationRow
 from mc_nested.learn.imagination.imagination import learnt_game
-from mc_nested.learn.runs.checkpoint import Checkpoint
+from mc_nested.learn.runs.checkpoint import Checkpoint, sealed, unsealed
 from mc_nested.learn.runs.folder_kind import check_config, check_free
+from mc_nested.learn.runs.folder_lock import holder_of
 from mc_nested.learn.runs.run_config import RunConfig
 from mc_nested.learn.runs.summary import summarise
 from mc_nested.learn.training import Training
@@ -126,7 +126,7 @@ class RunFolder:
             self.checkpoint.save(trainer, finished=trainer.finished)
             _write_table(self.path / "episodes.csv", EpisodeRow._fields, trainer.episode_rows)
             _write_table(self.path / "evaluations.csv", EvaluationRow._fields, trainer.evaluation_rows)
-            _write_text(self.path / SUMMARY, json.dumps(summary, indent=2) + "\n")
+            _write_text(self.path / SUMMARY, sealed(summary))
         return summary
 
     def policies(self) -> Arrays:
@@ -135,11 +135,22 @@ class RunFolder:
         RunError if nothing was saved yet, or it is damaged, of other shapes or another training's.
         """
         if self.only_begun:
+            if holder := holder_of(self.path):
+                raise RunError(f"{self.path}: {holder} is training it, and has saved nothing yet: wait for a minute")
             raise RunError(f"{self.path}: nothing is trained yet: go on with mc-nested train --resume {self.path}")
         kept = part_of(self.checkpoint.state(), "policies")
         if misfit := _misfit_of(kept, self._shapes_kept()):
             raise RunError(f"{self.checkpoint.file}: {misfit}: bring back a whole copy, or train the run again")
         return kept
+
+    def how_far(self) -> tuple[int, list[float | None]]:
+        """Return how many training episodes all trials have done, and each one's final score, None before its end.
+
+        RunError as for ``policies``.
+        """
+        scores, runs = self.policies()["scores"], part_of(self.checkpoint.state(), "runs")
+        ends = zip(scores.tolist(), runs["finished"], strict=True)
+        return int(runs["episodes"].sum()), [score if finished else None for score, finished in ends]
 
     def policy_of(self, trial: int) -> Arrays:
         """Return the networks of one trial's policy, by role, for ``Agent.load_online``.
@@ -182,11 +193,12 @@ class RunFolder:
         return not self.checkpoint.exists and not (self.path / "episodes.csv").exists()
 
     def wall_s_so_far(self) -> float:
-        """Return seconds that the training took until its last save; 0 if the summary doesn't say."""
+        """Return seconds that the training took until its last save, 0 before; RunError if they can't be read."""
+        file = self.path / SUMMARY
         try:
-            return float(json.loads((self.path / SUMMARY).read_text("utf-8"))["wall_s"])
-        except (OSError, ValueError, KeyError, TypeError):
-            return 0.0
+            return float(unsealed(file)["wall_s"]) if file.exists() else 0.0
+        except (OSError, ValueError, KeyError, TypeError) as error:
+            raise RunError(f"{file}: is damaged: remove it, and the seconds are counted from now on") from error
 
 
 def _misfit_of(kept: Arrays, shapes: Mapping[str, tuple[int, ...]]) -> str | None:
