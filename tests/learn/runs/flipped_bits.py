@@ -42,7 +42,7 @@ class Loaded:
     def marks(self) -> Arrays:
         return {}
 
-    def journal(self, since: Mapping[str, NDArray[Any]] | None) -> Arrays:
+    def journal(self, since: Mapping[str, NDArray[Any]] | None) -> Arrays:  # noqa: ARG002
         return {}
 
     def load(self, state: Mapping[str, NDArray[Any]], journals: list[Arrays]) -> None:
