@@ -102,7 +102,9 @@ class RunFolder:
             self.path.mkdir(parents=True, exist_ok=True)
             _write_text(self.path / CONFIG, tomlkit.dumps(self.config.model_dump(exclude_none=True)))
         except OSError as error:
-            raise RunError(f"{self.path}: can't be written, {error.strerror}: name another folder") from error
+            raise RunError(
+                f"{self.path}: can't be written, {error.strerror}: make room, or name another folder"
+            ) from error
 
     @contextmanager
     def writing(self) -> Iterator[None]:
