@@ -7,7 +7,6 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
-import numpy as np
 import tomlkit
 
 from mc_nested.arena.cooperative.team import Team
@@ -141,8 +140,11 @@ class RunFolder:
                 raise RunError(f"{self.path}: {holder} is training it, and has saved nothing yet: wait for a minute")
             raise RunError(f"{self.path}: nothing is trained yet: go on with mc-nested train --resume {self.path}")
         kept = part_of(self.checkpoint.state(), "policies")
-        if misfit := _misfit_of(kept, self._shapes_kept()):
-            raise RunError(f"{self.checkpoint.file}: {misfit}: bring back a whole copy, or train the run again")
+        if {name: array.shape for name, array in kept.items()} != self._shapes_kept():
+            raise RunError(
+                f"{self.checkpoint.file}: holds networks of another shape than its preset's: put back the network that "
+                f"it was trained with, or train the run again"
+            )
         return kept
 
     def how_far(self) -> tuple[int, list[float | None]]:
@@ -201,23 +203,6 @@ class RunFolder:
             return float(unsealed(file)["wall_s"]) if file.exists() else 0.0
         except (OSError, ValueError, KeyError, TypeError) as error:
             raise RunError(f"{file}: is damaged: remove it, and the seconds are counted from now on") from error
-
-
-def _misfit_of(kept: Arrays, shapes: Mapping[str, tuple[int, ...]]) -> str | None:
-    """Return what keeps these arrays from being policies of these shapes, by name, and their ``scores``.
-
-    It is None if they fit.
-    """
-    for name, shape in shapes.items():
-        if name not in kept:
-            return f"has no array {name}"
-        array = kept[name]
-        if array.shape != shape:
-            return f"its array {name} is {array.shape}, it should be {shape}"
-        # A policy that was never played has the score -inf.
-        if array.dtype.kind != "f" or not (np.isfinite(array) | (name == "scores") & np.isneginf(array)).all():
-            return f"its array {name} holds what is no number"
-    return None
 
 
 def _write_text(path: Path, text: str) -> None:

@@ -125,7 +125,7 @@ def _rgba(data: bytes) -> Bytes:
             with Image.open(file := io.BytesIO(data), formats=_FORMATS) as image:
                 image.verify()  # its checksums, which aren't looked at afterwards
             with Image.open(file, formats=_FORMATS) as image:
-                return np.asarray(image.convert("RGBA"))
+                return np.asarray(image.convert("RGBA"), np.uint8)
     except (Image.DecompressionBombError, Image.DecompressionBombWarning):
         raise PictureError("has more pixels than any screen") from None
     except (OSError, SyntaxError, ValueError, EOFError, struct.error):
