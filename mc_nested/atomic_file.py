@@ -47,8 +47,8 @@ def atomic_write(path: Path) -> Iterator[Path]:
 
 
 def _is_full(error: Exception, folder: Path) -> bool:
-    """Return whether an error says that a disk is full, or the folder's is."""
-    if getattr(error, "errno", None) == errno.ENOSPC:
+    """Return whether an error, or the one that it is about, says that a disk is full, or the folder's is."""
+    if any(getattr(each, "errno", None) == errno.ENOSPC for each in (error, error.__context__)):
         return True
     try:
         return shutil.disk_usage(folder).free < LEAST_FREE

@@ -76,7 +76,7 @@ class StudyFolder:
                         unfinished.write_text(text, encoding="utf-8")
         except OSError as error:
             raise RunError(
-                f"{self.path}: can't be written, {error.strerror}: make room, or name another folder"
+                f"{self.path}: can't be written, {error.strerror}: name another folder, or make room"
             ) from error
 
     def folder_of(self, job: Job) -> Path:

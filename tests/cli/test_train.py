@@ -291,7 +291,7 @@ def test_full_disk_is_a_one_line_error_and_costs_no_file(
     monkeypatch.setattr("mc_nested.cli.training_end.draw_curve", full_disk)
     assert run("train", "--resume", out) == 2
     said = capsys.readouterr().err
-    assert "No space left on device" in said
+    assert "no space left on the disk" in said
     assert f"make room, then mc-nested train --resume {out}" in said.splitlines()[-1]
     assert said.count("mc-nested: ") == 1
     assert {path.name for path in out.iterdir()} == {path.name for path in trained.iterdir()}

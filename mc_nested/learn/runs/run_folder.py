@@ -102,7 +102,7 @@ class RunFolder:
             _write_text(self.path / CONFIG, tomlkit.dumps(self.config.model_dump(exclude_none=True)))
         except OSError as error:
             raise RunError(
-                f"{self.path}: can't be written, {error.strerror}: make room, or name another folder"
+                f"{self.path}: can't be written, {error.strerror}: name another folder, or make room"
             ) from error
 
     @contextmanager

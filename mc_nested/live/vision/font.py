@@ -115,7 +115,7 @@ def decoded(data: bytes) -> Frame:
     Raises:
         PictureError: it is none, is damaged, or is larger by what it says than any screen; without the file's name.
     """
-    return _rgba(data)[..., 2::-1].copy()
+    return np.array(_rgba(data)[..., 2::-1], np.uint8)
 
 
 def _rgba(data: bytes) -> Bytes:

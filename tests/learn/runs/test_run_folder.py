@@ -142,7 +142,7 @@ def test_a_full_disk_is_reported_and_leaves_no_half_begun_checkpoint(
     with pytest.raises(RunError, match="make room and begin again"):
         folder.save_before_all(trainer_in(folder))
     assert not (tmp_path / "run" / "checkpoint").exists()
-    with pytest.raises(RunError, match="No space left on device: name another folder"):
+    with pytest.raises(RunError, match="no space left on the disk: name another folder, or make room"):
         folder.begin()
     with pytest.raises(RunError, match="make room, then mc-nested train --resume"):
         folder.save(trainer_in(folder), 0.0)
