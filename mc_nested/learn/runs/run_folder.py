@@ -120,7 +120,7 @@ class RunFolder:
         """Write the checkpoint, the tables and the summary as they are now, and return the summary.
 
         ``beside`` is added to the summary. RunError if the disk refuses. The same training writes the same bytes,
-        except for ``beside`` and the summary's ``wall_s``.
+        except for ``beside`` and the summary's ``wall_s`` and checksum.
         """
         summary = {**summarise(self.config, self.scenario, trainer, wall_s), **(beside or {})}
         with self.writing():
