@@ -1,7 +1,9 @@
 """Atomic writes: after a crash, a full disk or Ctrl+C the old file is intact."""
 
+import errno
 import os
 import secrets
+import shutil
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -10,11 +12,24 @@ SUFFIX = ".unfinished"
 """Ends the name of a file that is still being written, or that a killed process left behind."""
 
 
+FULL = "no space left on the disk"
+
+LEAST_FREE = 1 << 16
+"""Bytes; with fewer, what failed to be written had no room, in whatever words a library says so."""
+
+
+class FullDiskError(OSError):
+    """There was no room for a file."""
+
+    def __str__(self) -> str:
+        return FULL
+
+
 @contextmanager
 def atomic_write(path: Path) -> Iterator[Path]:
     """Yield a temporary path to write to; its file replaces ``path`` when the block ends, or is removed after an error.
 
-    Raise OSError if the disk refuses.
+    Raise OSError if the disk refuses; FullDiskError if it is full.
     """
     unfinished = path.with_name(f"{path.name}.{secrets.token_hex(4)}{SUFFIX}")
     try:
@@ -22,10 +37,23 @@ def atomic_write(path: Path) -> Iterator[Path]:
         with unfinished.open("rb+") as file:  # Windows flushes only what is open for writing
             os.fsync(file.fileno())
         unfinished.replace(path)
-    except BaseException:
+    except BaseException as error:
+        full = isinstance(error, Exception) and _is_full(error, path.parent)
         # Removed even after an error, so that a full disk has room again.
         unfinished.unlink(missing_ok=True)
+        if full:
+            raise FullDiskError(errno.ENOSPC, FULL, str(path)) from error
         raise
+
+
+def _is_full(error: Exception, folder: Path) -> bool:
+    """Return whether an error, or the one that it is about, says that a disk is full, or the folder's is."""
+    if any(getattr(each, "errno", None) == errno.ENOSPC for each in (error, error.__context__)):
+        return True
+    try:
+        return shutil.disk_usage(folder).free < LEAST_FREE
+    except OSError:
+        return False
 
 
 def is_leftover(path: Path) -> bool:

@@ -1,11 +1,12 @@
 """Atomic writes: the new file, or the old one and nothing else; what a killed process leaves is recognised."""
 
 import os
+import shutil
 from pathlib import Path
 
 import pytest
 
-from mc_nested.atomic_file import atomic_write, is_leftover, remove_leftovers
+from mc_nested.atomic_file import FullDiskError, atomic_write, is_leftover, remove_leftovers
 
 
 def test_the_file_is_replaced_at_the_end(tmp_path: Path) -> None:
@@ -32,6 +33,33 @@ def test_an_error_leaves_the_old_file_and_nothing_beside_it(tmp_path: Path, erro
         breaks_off()
     assert path.read_text() == "old"
     assert list(tmp_path.iterdir()) == [path]
+
+
+@pytest.mark.parametrize(
+    ("error", "free"),
+    [
+        (OSError(28, "No space left on device"), 10**9),
+        (OSError("encoder error -2 when writing image file"), 0),
+        (RuntimeError("enforce fail at inline_container.cc:672"), 0),
+    ],
+    ids=["system", "Pillow", "torch"],
+)
+def test_a_full_disk_is_called_one_whatever_a_library_says(
+    error: Exception, free: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def breaks_off() -> None:
+        with atomic_write(tmp_path / "picture.png") as unfinished:
+            unfinished.write_text("ha")
+            raise error
+
+    monkeypatch.setattr("shutil.disk_usage", lambda _: shutil._ntuple_diskusage(10**9, 10**9 - free, free))
+    with pytest.raises(FullDiskError) as caught:
+        breaks_off()
+    assert (str(caught.value), caught.value.filename) == (
+        "no space left on the disk",
+        str(tmp_path / "picture.png"),
+    )
+    assert list(tmp_path.iterdir()) == []
 
 
 def test_two_writers_of_one_file_do_not_disturb_each_other(tmp_path: Path) -> None:

@@ -9,17 +9,18 @@ import dataclasses
 import datetime
 import json
 from collections.abc import Callable, Iterator, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 
 import cv2
-import numpy as np
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from calibration.context import ReportPicture, StepResult
 from calibration.doctor.check import Check, Status
 from mc_nested.atomic_file import atomic_write
-from mc_nested.errors import ProfileError
+from mc_nested.errors import PictureError, ProfileError
+from mc_nested.live.vision.font import decoded
 
 LIST = "found.json"
 
@@ -180,6 +181,5 @@ def _write(folder: Path, step: str, number: int, picture: ReportPicture) -> str:
 
 def _pictures(folder: Path, entry: _StepEntry) -> Iterator[ReportPicture]:
     for each in entry.pictures:
-        frame = cv2.imread(str(folder / each.file))
-        if frame is not None:
-            yield ReportPicture(each.title, frame.astype(np.uint8), each.note)
+        with suppress(OSError, PictureError):
+            yield ReportPicture(each.title, decoded((folder / each.file).read_bytes()), each.note)

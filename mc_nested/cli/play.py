@@ -4,12 +4,12 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Annotated
 
-import cv2
 import typer
 
 from mc_nested.arena.env import ArenaEnv
 from mc_nested.arena.game import Game
 from mc_nested.arena.vector import ArenaVectorEnv
+from mc_nested.atomic_file import atomic_write
 from mc_nested.cli.options import (
     DEFAULT_PROFILE,
     BackendOption,
@@ -29,6 +29,7 @@ from mc_nested.learn.dqn.engines import SCREEN
 from mc_nested.learn.evaluation import GreedyEpisode, play_greedily
 from mc_nested.learn.runs.run_folder import RunFolder
 from mc_nested.live.devices import Display
+from mc_nested.live.menus.click_points import picture_bytes
 from mc_nested.report.film import check_film
 from sim.worlds import Backend, as_shown, check_window, open_game, where_words
 
@@ -175,5 +176,5 @@ class _Screenshots:
     def take(self) -> None:
         self._taken += 1
         path = self.folder / f"{self._taken:03d}.png"
-        if not cv2.imwrite(str(path), self._display.grab()):
-            raise RunError(f"{path}: can't be written: make room, or leave out --screenshots")
+        with atomic_write(path) as unfinished:
+            unfinished.write_bytes(picture_bytes(self._display.grab()))

@@ -5,17 +5,17 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated
 
-import cv2
 import typer
 from rich.console import RenderableType
 from rich.table import Table
 
 from calibration.font.sources import font_of_recording
 from calibration.installation.folders import System
+from mc_nested.atomic_file import atomic_write
 from mc_nested.cli.output import JsonOption, Output, prints
 from mc_nested.cli.recordings import RecordingArgument, recording_path
-from mc_nested.errors import RecordingError
-from mc_nested.live.recording.replayed_run import Difference, Replayed
+from mc_nested.live.menus.click_points import picture_bytes
+from mc_nested.live.recording.replayed_run import Replayed
 from mc_nested.live.recording.replayed_run import replay as replayed
 from mc_nested.live.vision.font import load_font
 
@@ -93,8 +93,8 @@ def _lines(seen: Replayed, font: Path, pictures: Path | None) -> Iterator[Render
 
 def _write_pictures(seen: Replayed, folder: Path) -> None:
     folder.mkdir(parents=True, exist_ok=True)
-    shown: list[Difference] = [each for each in seen.differences if each.picture is not None][:MOST_PICTURES]
-    for number, each in enumerate(shown, 1):
-        file = folder / f"{number:03d}-action-{each.action}.png"
-        if each.picture is None or not cv2.imwrite(str(file), each.picture):
-            raise RecordingError(f"{file}: can't be written: name another folder")
+    shown = [(each.action, each.picture) for each in seen.differences if each.picture is not None][:MOST_PICTURES]
+    for number, (action, picture) in enumerate(shown, 1):
+        file = folder / f"{number:03d}-action-{action}.png"
+        with atomic_write(file) as unfinished:
+            unfinished.write_bytes(picture_bytes(picture))

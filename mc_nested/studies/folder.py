@@ -75,7 +75,9 @@ class StudyFolder:
                     with atomic_write(file) as unfinished:
                         unfinished.write_text(text, encoding="utf-8")
         except OSError as error:
-            raise RunError(f"{self.path}: can't be written, {error.strerror}: name another folder") from error
+            raise RunError(
+                f"{self.path}: can't be written, {error.strerror}: name another folder, or make room"
+            ) from error
 
     def folder_of(self, job: Job) -> Path:
         """Return the job's own folder."""

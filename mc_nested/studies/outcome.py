@@ -4,14 +4,14 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
-from pydantic import BaseModel, ConfigDict, ValidationError
+from pydantic import BaseModel, ConfigDict
 
 from mc_nested.arena.scenario import Scenario
 from mc_nested.atomic_file import atomic_write
 from mc_nested.errors import RunError
 from mc_nested.learn.episode_log import EvaluationRow
 from mc_nested.learn.evaluation import GreedyEpisode
-from mc_nested.learn.runs.checkpoint import fingerprint
+from mc_nested.learn.runs.checkpoint import fingerprint, sealed, unsealed
 from mc_nested.studies.job import Job
 
 OUTCOME = "outcome.json"
@@ -92,7 +92,7 @@ def write_outcome(folder: Path, outcome: JobOutcome) -> None:
     """Write a finished job's outcome to its folder, atomically; OSError if the disk refuses."""
     folder.mkdir(parents=True, exist_ok=True)
     with atomic_write(folder / OUTCOME) as unfinished:
-        unfinished.write_text(outcome.model_dump_json(), encoding="utf-8")
+        unfinished.write_text(sealed(outcome.model_dump()), encoding="utf-8")
 
 
 def outcome_of(job: Job, folder: Path) -> JobOutcome | None:
@@ -104,8 +104,8 @@ def outcome_of(job: Job, folder: Path) -> JobOutcome | None:
     if not path.exists():
         return None
     try:
-        outcome = JobOutcome.model_validate_json(path.read_text("utf-8"))
-    except (OSError, UnicodeDecodeError, ValidationError) as error:
+        outcome = JobOutcome.model_validate(unsealed(path))
+    except (OSError, ValueError) as error:
         raise RunError(f"{path}: can't be read as the outcome of a training: remove it to train that again") from error
     if outcome.identity != fingerprint(job.identity()):
         raise RunError(f"{path}: belongs to another experiment: put back the file that was there")

@@ -2,12 +2,10 @@
 
 import datetime
 import os
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Annotated, Literal
-
-from pydantic import BaseModel, ConfigDict, ValidationError
 
 from mc_nested.errors import McNestedError, RunError
 from mc_nested.learn.runs.folder_kind import verb_in, verb_of_study
@@ -17,8 +15,6 @@ from mc_nested.studies.folder import CONFIG, JOBS_FOLDER, StudyFolder
 from mc_nested.toml_file import parse_document, read_toml_text
 
 State = Literal["finished", "can be resumed", "in use", "damaged"]
-
-SUMMARY = "summary.json"
 
 OUR_OWN = (JOBS_FOLDER, "checkpoint", "episodes.csv")
 """Any of these tells a folder of this project's where its config.toml can't be read."""
@@ -42,13 +38,6 @@ class RunFacts:
     optimum: Annotated[float | None, "the highest score possible"] = None
     size: Annotated[int, "bytes of all its files"] = 0
     begun: Annotated[datetime.datetime | None, "local time"] = None
-
-
-class _Summary(BaseModel):
-    model_config = ConfigDict(extra="ignore", frozen=True)
-
-    final_scores: list[float | None]
-    episodes_done: list[int]
 
 
 def runs_in(folder: Path) -> list[RunFacts]:
@@ -100,28 +89,14 @@ def _training(path: Path) -> RunFacts:
     )
     if folder.only_begun:
         return facts
-    return _as_far_as_trained(facts, folder.policies, config.trials)
-
-
-def _as_far_as_trained(facts: RunFacts, read_checkpoint: Callable[[], object], trials: int) -> RunFacts:
-    """Return the facts of a training that was saved: how far it is, or what is damaged."""
     try:
-        read_checkpoint()  # it may be gone, or damaged
-        summary = _summary(facts.folder / SUMMARY, facts.verb or "train")
+        done, scores = folder.how_far()
     except RunError as error:
         return replace(facts, state="damaged", why=str(error), episodes_done=None)
-    facts = replace(facts, episodes_done=sum(summary.episodes_done))
-    scores = [score for score in summary.final_scores if score is not None]
-    if len(scores) < trials:
-        return facts
-    return replace(facts, state="finished", score=sum(scores) / len(scores))
-
-
-def _summary(file: Path, verb: str) -> _Summary:
-    try:
-        return _Summary.model_validate_json(file.read_text("utf-8"))
-    except (OSError, UnicodeDecodeError, ValidationError) as error:
-        raise RunError(f"{file}: can't be read: mc-nested {verb} --resume {file.parent} writes it again") from error
+    finals = [score for score in scores if score is not None]
+    if len(finals) < config.trials:
+        return replace(facts, episodes_done=done)
+    return replace(facts, episodes_done=done, state="finished", score=sum(finals) / len(finals))
 
 
 def _study(path: Path) -> RunFacts:

@@ -1,6 +1,8 @@
 """``mc-nested read``: one line a picture, for a person or as JSON, with a profile or without."""
 
 import json
+import subprocess
+import sys
 from pathlib import Path
 
 import cv2
@@ -76,8 +78,8 @@ def test_file_that_is_not_a_picture_is_an_error_after_the_others_are_read(
     said = capsys.readouterr()
     assert len(said.out.splitlines()) == 1
     assert said.err == (
-        f"mc-nested: {tmp_path / 'notes.txt'} is not a picture: give a PNG of the game's window, as F2 takes it; "
-        "1 other file can't be read either\n"
+        f"mc-nested: {tmp_path / 'notes.txt'} is not a picture, or is damaged: give a PNG of the game's window, as F2 "
+        "takes it; 1 other file can't be read either\n"
     )
 
 
@@ -104,3 +106,17 @@ def test_font_option_comes_before_the_profiles_font(
     profile.write_text("[screen]\nfont = '/nowhere/ascii.png'\n", "utf-8")
     (line,) = printed(capsys, picture(tmp_path / "a.png", STONE), "--profile", profile, "--font", font)
     assert "at 8.500" in line
+
+
+@pytest.mark.parametrize("verb", [["read", "--font", "FONT"], ["build"], ["doctor", "read", "--font", "FONT"]])
+def test_a_broken_picture_is_one_line_and_no_library_says_anything_of_its_own(
+    verb: list[str], tmp_path: Path, font: Path
+) -> None:
+    small = cv2.imencode(".png", np.random.default_rng(0).integers(0, 256, (15, 15, 3), np.uint8))[1].tobytes()
+    (tmp_path / "broken.png").write_bytes(small[:200] if verb == ["build"] else small[:200] + b"\0" + small[201:])
+    words = [str(font) if word == "FONT" else word for word in verb]
+    command = [sys.executable, "-c", "from mc_nested.cli import main; main()", *words, str(tmp_path / "broken.png")]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert done.returncode == 2
+    assert done.stderr.startswith("mc-nested: ")
+    assert done.stderr.count("\n") == 1, done.stderr

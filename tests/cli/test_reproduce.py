@@ -253,7 +253,7 @@ def test_full_disk_at_the_end_is_reported_in_one_line_and_costs_no_file(
     monkeypatch.setattr("matplotlib.figure.Figure.savefig", full_disk)
     assert run("reproduce", "--resume", done) == 2
     said = capsys.readouterr().err
-    assert "No space left on device" in said
+    assert "no space left on the disk" in said
     assert f"make room, then mc-nested reproduce --resume {done} goes on" in said
     assert said.count("\n") == 1
     assert written(done) == before

@@ -15,7 +15,7 @@ import cv2
 import pytest
 
 from mc_nested.errors import DesktopError, LiveError, McNestedError
-from mc_nested.learn.runs.checkpoint import FILE
+from mc_nested.learn.runs.checkpoint import FILE, unsealed
 from mc_nested.learn.runs.run_folder import RunFolder
 from mc_nested.learn.trainer import Trainer
 from sim.grid import GridVectorEnv
@@ -180,7 +180,7 @@ def test_the_same_seed_gives_the_same_files(trained: Path, tmp_path: Path) -> No
     assert run(*TRAIN, "--out", tmp_path / "again") == 0
     for name in ("episodes.csv", "evaluations.csv", "config.toml", "curve.png"):
         assert (tmp_path / "again" / name).read_bytes() == (trained / name).read_bytes(), name
-    one, other = (json.loads((folder / "summary.json").read_text()) for folder in (trained, tmp_path / "again"))
+    one, other = (unsealed(folder / "summary.json") for folder in (trained, tmp_path / "again"))
     assert {**one, "wall_s": 0} == {**other, "wall_s": 0}
     assert (tmp_path / "again" / "checkpoint" / FILE).read_bytes() == (trained / "checkpoint" / FILE).read_bytes()
 
@@ -249,7 +249,7 @@ def test_folder_without_a_name_is_printed_at_the_beginning_and_at_the_end(
 def test_json_has_the_summary_and_the_folder(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert run(*TRAIN, "--json", "--quiet", "--out", tmp_path / "run") == 0
     printed = capsys.readouterr()
-    summary = json.loads((tmp_path / "run" / "summary.json").read_text())
+    summary = unsealed(tmp_path / "run" / "summary.json")
     of_others = dict.fromkeys(("live", "builders", "networks_kind", "starts"))
     assert json.loads(printed.out) == {"folder": str(tmp_path / "run"), **summary, **of_others}
     assert printed.err == ""
@@ -291,7 +291,7 @@ def test_full_disk_is_a_one_line_error_and_costs_no_file(
     monkeypatch.setattr("mc_nested.cli.training_end.draw_curve", full_disk)
     assert run("train", "--resume", out) == 2
     said = capsys.readouterr().err
-    assert "No space left on device" in said
+    assert "no space left on the disk" in said
     assert f"make room, then mc-nested train --resume {out}" in said.splitlines()[-1]
     assert said.count("mc-nested: ") == 1
     assert {path.name for path in out.iterdir()} == {path.name for path in trained.iterdir()}

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import pytest
 
+from mc_nested.learn.runs.checkpoint import unsealed
 from mc_nested.learn.trainer import Trainer
 from tests.cli.running import check_mistake, run, table
 
@@ -79,7 +80,7 @@ def test_json_has_the_summary_and_the_folder(tmp_path: Path, capsys: pytest.Capt
     said = json.loads(capsys.readouterr().out)
     assert said["folder"] == str(out)
     assert said["starts"] == [[7, 14], [0, 0]]
-    summary = json.loads((out / "summary.json").read_text())
+    summary = unsealed(out / "summary.json")
     assert said == {"folder": str(out), **summary, "live": None}
 
 

@@ -148,7 +148,7 @@ def test_a_full_disk_is_reported_and_keeps_the_last_save(tmp_path: Path, monkeyp
     saved = training(job, tmp_path).episodes_done.tolist()
     with monkeypatch.context() as patch:
         patch.setattr("os.fsync", full_disk)
-        with pytest.raises(RunError, match=r"No space left on device.*: make room"):
+        with pytest.raises(RunError, match=r"no space left on the disk.*: make room"):
             own.save()
     assert training(job, tmp_path).episodes_done.tolist() == saved
     assert min(saved) > 0

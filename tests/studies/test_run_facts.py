@@ -1,9 +1,9 @@
 """Facts that a list of runs shows of each folder, in any state."""
 
-import json
 import shutil
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from mc_nested.errors import RunError
@@ -19,6 +19,7 @@ from mc_nested.studies.outcome import JobOutcome, RunOutcome, write_outcome
 from mc_nested.studies.run_facts import RunFacts, facts_of, runs_in
 from tests.learn.made_experiments import BAR, DOT, small_preset
 from tests.learn.made_trainings import finish
+from tests.learn.runs.changed_arrays import change_arrays
 from tests.learn.runs.test_run_folder import begun, trainer_in
 
 
@@ -50,8 +51,10 @@ def study(path: Path, name: str, arms: list[Arm], finished: bool) -> StudyFolder
 
 def test_a_finished_training_has_the_mean_of_its_scores(trained: Path, tmp_path: Path) -> None:
     shutil.copytree(trained, tmp_path / "run")
-    summary = json.loads((tmp_path / "run" / "summary.json").read_text())
-    (tmp_path / "run" / "summary.json").write_text(json.dumps({**summary, "final_scores": [10.0, 11.0]}))
+    change_arrays(
+        tmp_path / "run" / "checkpoint" / STATE,
+        lambda state: state.update({"policies.scores": np.array([10.0, 11.0])}),
+    )
     facts = known(tmp_path / "run")
     assert (facts.verb, facts.state, facts.why) == ("train", "finished", None)
     assert (facts.designs, facts.agents, facts.presets) == (["dot"], ["nested"], ["small"])
@@ -98,8 +101,6 @@ def test_a_folder_where_a_process_writes_is_in_use(trained: Path) -> None:
         ("config.toml", f'format = {FORMAT}\nagent = "nested"', "missing: add it"),
         ("config.toml", 'agent = "nested"', "written by another version of mc-nested"),
         ("config.toml", "\0", "not TOML"),
-        ("summary.json", "{", "summary.json: can't be read: mc-nested train --resume"),
-        ("summary.json", None, "summary.json: can't be read"),
         (f"checkpoint/{STATE}", "x", "damaged or cut short"),
         (f"checkpoint/{STATE}", None, "the checkpoint is gone"),
     ],

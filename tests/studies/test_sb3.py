@@ -93,7 +93,7 @@ def test_a_full_disk_is_reported(tmp_path: Path, monkeypatch: pytest.MonkeyPatch
         own.tick()
 
     monkeypatch.setattr("os.fsync", full_disk)
-    with pytest.raises(RunError, match=r"No space left on device.*: make room"):
+    with pytest.raises(RunError, match=r"no space left on the disk.*: make room"):
         own.finish()
 
 

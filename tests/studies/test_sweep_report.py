@@ -124,7 +124,7 @@ def test_a_full_disk_leaves_the_old_picture(tmp_path: Path, monkeypatch: pytest.
     before = (tmp_path / "sweep.png").read_bytes()
 
     monkeypatch.setattr("matplotlib.figure.Figure.savefig", full_disk)
-    with pytest.raises(OSError, match="No space left"):
+    with pytest.raises(OSError, match="no space left"):
         write_report(tmp_path, STUDY, REPORT)
     assert (tmp_path / "sweep.png").read_bytes() == before
     assert {path.name for path in tmp_path.iterdir()} == {"sweep.csv", "sweep.md", "sweep.png"}

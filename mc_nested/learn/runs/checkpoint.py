@@ -1,17 +1,16 @@
 """A training on disk: if the process is killed at any moment, the last save or the new one is there, whole.
 
 ``state.npz`` is rewritten at every save. What only grows (a replay's transitions, finished episodes) goes into a
-journal, one more file per save, so that a save costs only what was added. Both hold NumPy arrays by name.
+journal, one more file per save, so that a save costs only what was added. Both hold NumPy arrays by name, and end with
+the SHA-256 of all before it; the state knows that of each journal, so that one of another save isn't taken for its own.
 """
 
 import hashlib
-import io
 import json
-import zipfile
-import zlib
+import os
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any, Protocol
+from typing import Any, BinaryIO, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -26,17 +25,22 @@ FILE, WHOLE_JOURNAL = "state.npz", "journal.npz"
 ABOUT = "about"
 """The array of the state's file that holds what it says of itself, as JSON."""
 
+SEAL = "checksum"
+"""The key of a JSON file that holds the fingerprint of the others."""
+
+_CHECKSUM_BYTES, _AT_ONCE = hashlib.sha256().digest_size, 1 << 20
+
 MOST_JOURNALS = 64
 """Journals kept side by side before they are merged into one."""
 
 
 class _About(BaseModel):
-    """What is trained, and the names of its journals."""
+    """What is trained, and the checksums of its journals, by name and in their order."""
 
     model_config = ConfigDict(strict=True)
 
     identity: str
-    journals: list[str]
+    journals: dict[str, str]
 
 
 class Journalled(Protocol):
@@ -73,7 +77,7 @@ class Checkpoint:
         self._folder = folder
         self._remedy = remedy
         self.identity = fingerprint(identity)
-        self._journals: list[str] = []
+        self._journals: dict[str, str] = {}
         self._next = 0
         self._marks: Arrays | None = None
 
@@ -95,9 +99,9 @@ class Checkpoint:
         self._folder.mkdir(parents=True, exist_ok=True)
         merge = finished or len(self._journals) >= MOST_JOURNALS
         name = WHOLE_JOURNAL if finished else f"journal-{self._next:06d}.npz"
-        journals = [name] if merge else [*self._journals, name]
+        written = self._write(name, training.journal(None if merge else self._marks))
+        journals = {**({} if merge else self._journals), name: written}
         about = _About(identity=self.identity, journals=journals)
-        self._write(name, training.journal(None if merge else self._marks))
         self._write(FILE, {ABOUT: np.array(about.model_dump_json()), **training.state()})
         for old in self._journals:
             if old not in journals:
@@ -111,7 +115,7 @@ class Checkpoint:
     def load_into(self, training: Journalled) -> None:
         """Continue the training from its last save; RunError as for ``state``."""
         about, state = self._open()
-        journals = [self._read(name) for name in about.journals]
+        journals = [self._read(name, checksum) for name, checksum in about.journals.items()]
         try:
             training.load(state, journals)
         except (KeyError, IndexError, TypeError, ValueError) as error:
@@ -135,25 +139,58 @@ class Checkpoint:
             )
         return about, state
 
-    def _write(self, name: str, arrays: Mapping[str, NDArray[Any]]) -> None:
-        with atomic_write(self._folder / name) as path, path.open("wb") as file:
+    def _write(self, name: str, arrays: Mapping[str, NDArray[Any]]) -> str:
+        """Write a file, and return its checksum."""
+        with atomic_write(self._folder / name) as path, path.open("wb+") as file:
             np.savez(file, allow_pickle=False, **arrays)
+            file.seek(-2, os.SEEK_END)
+            file.write(_CHECKSUM_BYTES.to_bytes(2, "little"))  # how long the archive's comment is, which follows
+            checksum = _checksum_of(file, file.tell())
+            file.write(checksum)
+        return checksum.hex()
 
-    def _read(self, name: str) -> Arrays:
+    def _read(self, name: str, expected: str | None = None) -> Arrays:
+        """Return a file's arrays; RunError if it isn't as it was written, or hasn't the checksum that is expected."""
         try:
-            with zipfile.ZipFile(self._folder / name) as archive:
-                # Each entry is read whole, and so checked, before NumPy reads what its header says.
-                return {
-                    entry.removesuffix(".npy"): np.load(io.BytesIO(archive.read(entry)), allow_pickle=False)
-                    for entry in archive.namelist()
-                }
-        except (OSError, ValueError, EOFError, RuntimeError, zlib.error, zipfile.BadZipFile) as error:
-            raise self._damaged(name) from error  # RuntimeError: zipfile finds a password
+            with (self._folder / name).open("rb") as file:
+                end = file.seek(-_CHECKSUM_BYTES, os.SEEK_END)
+                checksum = file.read()
+                if checksum != _checksum_of(file, end):
+                    raise ValueError("another checksum")
+                if expected not in (None, checksum.hex()):
+                    raise RunError(f"{self._folder / name}: belongs to another save than {FILE}: {self._remedy}")
+                file.seek(0)
+                with np.load(file, allow_pickle=False) as arrays:
+                    return dict(arrays)
+        except (OSError, ValueError) as error:
+            raise self._damaged(name) from error
 
     def _damaged(self, name: str) -> RunError:
         return RunError(f"{self._folder / name}: the checkpoint is damaged or cut short: {self._remedy}")
 
 
-def fingerprint(identity: Mapping[str, Any]) -> str:
-    """Return a hash of the identity that doesn't depend on the order of its keys."""
-    return hashlib.sha256(json.dumps(identity, sort_keys=True).encode()).hexdigest()
+def _checksum_of(file: BinaryIO, end: int) -> bytes:
+    """Return the SHA-256 of a file's first ``end`` bytes, and leave the file there."""
+    checksum = hashlib.sha256()
+    file.seek(0)
+    for begin in range(0, end, _AT_ONCE):
+        checksum.update(file.read(min(_AT_ONCE, end - begin)))
+    return checksum.digest()
+
+
+def fingerprint(content: Mapping[str, Any]) -> str:
+    """Return a hash of what can be JSON; it doesn't depend on the order of its keys."""
+    return hashlib.sha256(json.dumps(content, sort_keys=True).encode()).hexdigest()
+
+
+def sealed(content: Mapping[str, Any]) -> str:
+    """Return it as the JSON of a file that is read back, with its ``fingerprint``."""
+    return json.dumps({**content, SEAL: fingerprint(content)}, indent=2) + "\n"
+
+
+def unsealed(path: Path) -> dict[str, Any]:
+    """Return what a file holds that ``sealed`` wrote; OSError or ValueError if it can't be read, or was changed."""
+    content: dict[str, Any] = json.loads(path.read_text("utf-8"))
+    if not isinstance(content, dict) or content.pop(SEAL, None) != fingerprint(content):
+        raise ValueError("it was changed")
+    return content

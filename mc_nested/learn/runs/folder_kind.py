@@ -17,7 +17,7 @@ VIEW = "view"
 VIEW_FILES = frozenset({"now.json", "history.jsonl", "pause.request", "stop.request", "answer.request", LOCK})
 """A run's folder of what ``mc-nested view`` shows, and its files; a run that never began leaves nothing else."""
 
-FORMAT = 2
+FORMAT = 3
 """What the files of a run or an experiment are like: it goes up by one when they change."""
 
 

@@ -57,7 +57,7 @@ def _held_by_another(folder: Path, held: ExitStack) -> str | None:
     except OSError as error:
         if error.errno in _NO_LOCKS:
             return None
-        raise RunError(f"{folder}: can't be written, {error.strerror}: name another folder") from error
+        raise RunError(f"{folder}: can't be written, {error.strerror}: name another folder, or make room") from error
     if lock.is_mine:
         return None
     held.close()

@@ -1,14 +1,12 @@
 """A training's folder: config.toml, episodes.csv, evaluations.csv, summary.json and checkpoint/."""
 
 import csv
-import json
 import shutil
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
-import numpy as np
 import tomlkit
 
 from mc_nested.arena.cooperative.team import Team
@@ -20,8 +18,9 @@ from mc_nested.errors import RunError, ScenarioError
 from mc_nested.learn.agents import AGENT_SPECS, Agent
 from mc_nested.learn.episode_log import EpisodeRow, EvaluationRow
 from mc_nested.learn.imagination.imagination import learnt_game
-from mc_nested.learn.runs.checkpoint import Checkpoint
+from mc_nested.learn.runs.checkpoint import Checkpoint, sealed, unsealed
 from mc_nested.learn.runs.folder_kind import check_config, check_free
+from mc_nested.learn.runs.folder_lock import holder_of
 from mc_nested.learn.runs.run_config import RunConfig
 from mc_nested.learn.runs.summary import summarise
 from mc_nested.learn.training import Training
@@ -102,7 +101,9 @@ class RunFolder:
             self.path.mkdir(parents=True, exist_ok=True)
             _write_text(self.path / CONFIG, tomlkit.dumps(self.config.model_dump(exclude_none=True)))
         except OSError as error:
-            raise RunError(f"{self.path}: can't be written, {error.strerror}: name another folder") from error
+            raise RunError(
+                f"{self.path}: can't be written, {error.strerror}: name another folder, or make room"
+            ) from error
 
     @contextmanager
     def writing(self) -> Iterator[None]:
@@ -119,14 +120,14 @@ class RunFolder:
         """Write the checkpoint, the tables and the summary as they are now, and return the summary.
 
         ``beside`` is added to the summary. RunError if the disk refuses. The same training writes the same bytes,
-        except for ``beside`` and the summary's ``wall_s``.
+        except for ``beside`` and the summary's ``wall_s`` and checksum.
         """
         summary = {**summarise(self.config, self.scenario, trainer, wall_s), **(beside or {})}
         with self.writing():
             self.checkpoint.save(trainer, finished=trainer.finished)
             _write_table(self.path / "episodes.csv", EpisodeRow._fields, trainer.episode_rows)
             _write_table(self.path / "evaluations.csv", EvaluationRow._fields, trainer.evaluation_rows)
-            _write_text(self.path / SUMMARY, json.dumps(summary, indent=2) + "\n")
+            _write_text(self.path / SUMMARY, sealed(summary))
         return summary
 
     def policies(self) -> Arrays:
@@ -135,11 +136,25 @@ class RunFolder:
         RunError if nothing was saved yet, or it is damaged, of other shapes or another training's.
         """
         if self.only_begun:
+            if holder := holder_of(self.path):
+                raise RunError(f"{self.path}: {holder} is training it, and has saved nothing yet: wait for a minute")
             raise RunError(f"{self.path}: nothing is trained yet: go on with mc-nested train --resume {self.path}")
         kept = part_of(self.checkpoint.state(), "policies")
-        if misfit := _misfit_of(kept, self._shapes_kept()):
-            raise RunError(f"{self.checkpoint.file}: {misfit}: bring back a whole copy, or train the run again")
+        if {name: array.shape for name, array in kept.items()} != self._shapes_kept():
+            raise RunError(
+                f"{self.checkpoint.file}: holds networks of another shape than its preset's: put back the network that "
+                f"it was trained with, or train the run again"
+            )
         return kept
+
+    def how_far(self) -> tuple[int, list[float | None]]:
+        """Return how many training episodes all trials have done, and each one's final score, None before its end.
+
+        RunError as for ``policies``.
+        """
+        scores, runs = self.policies()["scores"], part_of(self.checkpoint.state(), "runs")
+        ends = zip(scores.tolist(), runs["finished"], strict=True)
+        return int(runs["episodes"].sum()), [score if finished else None for score, finished in ends]
 
     def policy_of(self, trial: int) -> Arrays:
         """Return the networks of one trial's policy, by role, for ``Agent.load_online``.
@@ -182,28 +197,12 @@ class RunFolder:
         return not self.checkpoint.exists and not (self.path / "episodes.csv").exists()
 
     def wall_s_so_far(self) -> float:
-        """Return seconds that the training took until its last save; 0 if the summary doesn't say."""
+        """Return seconds that the training took until its last save, 0 before; RunError if they can't be read."""
+        file = self.path / SUMMARY
         try:
-            return float(json.loads((self.path / SUMMARY).read_text("utf-8"))["wall_s"])
-        except (OSError, ValueError, KeyError, TypeError):
-            return 0.0
-
-
-def _misfit_of(kept: Arrays, shapes: Mapping[str, tuple[int, ...]]) -> str | None:
-    """Return what keeps these arrays from being policies of these shapes, by name, and their ``scores``.
-
-    It is None if they fit.
-    """
-    for name, shape in shapes.items():
-        if name not in kept:
-            return f"has no array {name}"
-        array = kept[name]
-        if array.shape != shape:
-            return f"its array {name} is {array.shape}, it should be {shape}"
-        # A policy that was never played has the score -inf.
-        if array.dtype.kind != "f" or not (np.isfinite(array) | (name == "scores") & np.isneginf(array)).all():
-            return f"its array {name} holds what is no number"
-    return None
+            return float(unsealed(file)["wall_s"]) if file.exists() else 0.0
+        except (OSError, ValueError, KeyError, TypeError) as error:
+            raise RunError(f"{file}: is damaged: remove it, and the seconds are counted from now on") from error
 
 
 def _write_text(path: Path, text: str) -> None:

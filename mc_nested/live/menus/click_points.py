@@ -8,6 +8,7 @@ A profile's pictures are files: beside ``default.toml``, ``default-points/single
 """
 
 from collections.abc import Mapping
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 from urllib.parse import quote
@@ -15,6 +16,7 @@ from urllib.parse import quote
 import cv2
 import numpy as np
 
+from mc_nested.errors import PictureError
 from mc_nested.live.devices import Display, Frame
 from mc_nested.live.input.input_controller import InputController
 from mc_nested.live.model.timing import MENU_LOOK_S
@@ -149,10 +151,6 @@ def load_click_points(profile: Profile, path: Path) -> dict[str, ClickPoint]:
     """Return the points of the profile in the file ``path`` that have a picture: without one, none is ever clicked."""
     points = {}
     for name, at in profile.points.items():
-        try:
-            picture = decoded(picture_file(path, name).read_bytes(), cv2.IMREAD_COLOR)
-        except OSError:
-            continue
-        if picture is not None:
-            points[name] = ClickPoint(name, at, np.asarray(picture, np.uint8))
+        with suppress(OSError, PictureError):
+            points[name] = ClickPoint(name, at, decoded(picture_file(path, name).read_bytes()))
     return points

@@ -5,7 +5,10 @@ A glyph is kept as one byte a column, from the pen's position to its last used c
 ``r``. The pen moves on by the last used column + 2, and by 4 for a space.
 """
 
+import io
 import string
+import struct
+import warnings
 import zipfile
 import zlib
 from collections import Counter
@@ -13,15 +16,14 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
-from typing import Any, cast
 
-import cv2
 import numpy as np
 from numpy.typing import NDArray
+from PIL import Image
 
-from mc_nested.errors import FontError
-
-Atlas = NDArray[np.uint8] | NDArray[np.uint16]
+from mc_nested.arrays import Bytes
+from mc_nested.errors import FontError, PictureError
+from mc_nested.live.devices import Frame
 
 ENTRY = "assets/minecraft/textures/font/ascii.png"
 SPACE = 4
@@ -31,6 +33,7 @@ Glyph = tuple[str, int, int]
 """A character, the blank columns on its left, and the columns from its first ink to its last."""
 
 _GIVE = "give the game's jar (versions/1.20.1/1.20.1.jar in its folder), a resource pack or its ascii.png"
+_FORMATS = ("PNG", "JPEG", "BMP", "WEBP", "TIFF")
 _CELLS = 16
 _DOTS = 8
 _NEEDED = string.digits + string.ascii_letters + ".,:/-()_#"
@@ -97,27 +100,40 @@ def load_font(path: Path) -> Font:
     Raises:
         FontError: there is nothing that can be used; the message says what to give instead.
     """
-    picture = decoded(_picture_bytes(path), cv2.IMREAD_UNCHANGED)
-    if picture is None:
-        raise FontError(f"{path} is not a picture: {_GIVE}")
-    if picture.ndim != 3 or picture.shape[2] != 4 or picture.dtype.kind != "u":
-        raise FontError(f"{path} has no transparency, so glyphs and background can't be separated: give the game's jar")
-    return font_of(cast("Atlas", picture), str(path))
-
-
-def decoded(data: bytes, flag: int) -> NDArray[Any] | None:
-    """Return the pixels of a picture file, as cv2's ``flag`` asks for them.
-
-    Return None where it is no picture that can be opened.
-    """
     try:
-        return cv2.imdecode(np.frombuffer(data, np.uint8), flag) if data else None
-    except cv2.error:  # more pixels than cv2 opens
-        return None
+        picture = _rgba(_picture_bytes(path))
+    except PictureError as error:
+        raise FontError(f"{path} {error}: {_GIVE}") from None
+    if picture[..., 3].all():
+        raise FontError(f"{path} has no transparency, so glyphs and background can't be separated: give the game's jar")
+    return font_of(picture, str(path))
 
 
-def font_of(atlas: Atlas, name: str = "the font picture") -> Font:
-    """Return the font of an atlas (n * 128, n * 128, 4), whose last channel is alpha: 0, or the type's largest value.
+def decoded(data: bytes) -> Frame:
+    """Return the pixels of a picture file as a frame.
+
+    Raises:
+        PictureError: it is none, is damaged, or is larger by what it says than any screen; without the file's name.
+    """
+    return np.array(_rgba(data)[..., 2::-1], np.uint8)
+
+
+def _rgba(data: bytes) -> Bytes:
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("error", Image.DecompressionBombWarning)
+            with Image.open(file := io.BytesIO(data), formats=_FORMATS) as image:
+                image.verify()  # its checksums, which aren't looked at afterwards
+            with Image.open(file, formats=_FORMATS) as image:
+                return np.asarray(image.convert("RGBA"), np.uint8)
+    except (Image.DecompressionBombError, Image.DecompressionBombWarning):
+        raise PictureError("has more pixels than any screen") from None
+    except (OSError, SyntaxError, ValueError, EOFError, struct.error):
+        raise PictureError("is not a picture, or is damaged") from None
+
+
+def font_of(atlas: Bytes, name: str = "the font picture") -> Font:
+    """Return the font of an atlas (n * 128, n * 128, 4), whose last channel is alpha: 0 or 255.
 
     Raises:
         FontError: the atlas has another size, is finer than 8 x 8 dots a glyph, or lacks glyphs that F3 needs.
@@ -135,13 +151,13 @@ def font_of(atlas: Atlas, name: str = "the font picture") -> Font:
     return font
 
 
-def _dots(alpha: Atlas, name: str) -> NDArray[np.bool_]:
+def _dots(alpha: Bytes, name: str) -> NDArray[np.bool_]:
     """Return the atlas's alpha channel as 128 x 128 dots, each drawn or not."""
     side, finer = alpha.shape[0], alpha.shape[0] // (_CELLS * _DOTS)
     if alpha.shape != (side, side) or side == 0 or side % (_CELLS * _DOTS):
         width, height = alpha.shape[1], alpha.shape[0]
         raise FontError(f"{name} is {width} x {height} pixels: a font picture is 128 x 128, or a multiple of it")
-    drawn = alpha > np.iinfo(alpha.dtype).max // 2
+    drawn = alpha > 127
     dots = drawn[::finer, ::finer]
     if not np.array_equal(drawn, dots.repeat(finer, 0).repeat(finer, 1)):
         raise FontError(

@@ -9,9 +9,6 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated
 
-import cv2
-import numpy as np
-
 from mc_nested.errors import PictureError
 from mc_nested.live.model.reading import XYZ, Reading, Target
 from mc_nested.live.vision.debug_screen import nothing_seen, read_found
@@ -82,10 +79,11 @@ def _read(path: Path, font: Font, overlay: Overlay | None) -> Reading:
         raise PictureError(
             f"{path} can't be read ({error.strerror or error}): give a picture of the game's window"
         ) from error
-    picture = decoded(data, cv2.IMREAD_COLOR)
-    if picture is None:
-        raise PictureError(f"{path} is not a picture: give a PNG of the game's window, as F2 takes it")
-    found = find_debug_screen(np.asarray(picture, np.uint8), font, overlay)
+    try:
+        picture = decoded(data)
+    except PictureError as error:
+        raise PictureError(f"{path} {error}: give a PNG of the game's window, as F2 takes it") from None
+    found = find_debug_screen(picture, font, overlay)
     if found is None:
         reading = Reading(problem=f"{nothing_seen(overlay).problem}; {_ALONE}")
     else:

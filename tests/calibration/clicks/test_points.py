@@ -128,8 +128,7 @@ def test_a_dry_run_in_the_world_does_not_turn_the_view(recorded: Path) -> None:
 def test_show_marks_the_points_on_this_screen_green_and_the_others_red(recorded: Path) -> None:
     client = started(VirtualClient())
     client.game.open("title")
-    picture = decoded(show_clicks(recorded, context_of(client)).read_bytes(), 1)
-    assert picture is not None
+    picture = decoded(show_clicks(recorded, context_of(client)).read_bytes())
     points = load_click_points(load_profile(recorded), recorded)
     for name, point in points.items():
         x, y = point.position(client.window.size)

@@ -175,9 +175,7 @@ def test_profile_and_picture_are_written_for_the_version_in_the_window_title(tmp
     found, picture = calibrate_font(file, context_of(started(VirtualClient(version="1.21.11"))), sources=sources)
     assert asked == ["1.21.11"]
     assert load_profile(file) == found.profile
-    drawn = decoded(picture.read_bytes(), 1)
-    assert drawn is not None
-    assert np.array_equal(drawn, found.pictures[0].frame)
+    assert np.array_equal(decoded(picture.read_bytes()), found.pictures[0].frame)
     assert picture == tmp_path / "mine-font.png"
 
 

@@ -3,14 +3,13 @@
 from collections.abc import Callable
 from pathlib import Path
 
-import numpy as np
-
 from mc_nested.arrays import Arrays
+from mc_nested.learn.runs.checkpoint import Checkpoint
 
 
 def change_arrays(file: Path, change: Callable[[Arrays], object]) -> None:
-    """Change the arrays in a checkpoint's file."""
-    with np.load(file) as found:
-        arrays = dict(found)
+    """Change the arrays in a checkpoint's file, which is whole then."""
+    folder = Checkpoint(file.parent, {})
+    arrays = folder._read(file.name)
     change(arrays)
-    np.savez(file, allow_pickle=False, **arrays)
+    folder._write(file.name, arrays)

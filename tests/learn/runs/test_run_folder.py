@@ -1,6 +1,6 @@
 """A training's folder: what it holds, how it is opened again, and what a full disk leaves."""
 
-import json
+import os
 import re
 from collections.abc import Callable
 from pathlib import Path
@@ -11,6 +11,8 @@ import pytest
 from mc_nested.arrays import Arrays
 from mc_nested.errors import PresetError, RunError
 from mc_nested.learn.episode_log import EpisodeRow, EvaluationRow
+from mc_nested.learn.runs.checkpoint import unsealed
+from mc_nested.learn.runs.folder_lock import folder_lock
 from mc_nested.learn.runs.run_config import RunConfig
 from mc_nested.learn.runs.run_folder import RunFolder
 from mc_nested.learn.runs.summary import summarise
@@ -73,7 +75,7 @@ def test_an_unfinished_training_has_no_final_scores_and_a_finished_one_has_every
     assert (early["final_scores"], early["live"]) == ([None, None], {})
     assert not folder.only_begun
     summary = folder.save(finish(trainer), 2.5)
-    assert json.loads((tmp_path / "summary.json").read_text("utf-8")) == summary
+    assert unsealed(tmp_path / "summary.json") == summary
     assert folder.wall_s_so_far() == 2.5
     assert summary["episodes_done"] == [10, 10]
     assert summary["final_scores"] == trainer.policy_scores.tolist()
@@ -112,6 +114,26 @@ def test_policies_are_read_back_from_the_checkpoint(tmp_path: Path) -> None:
     }
 
 
+def test_a_run_that_another_process_trains_and_has_not_saved_yet_says_to_wait(tmp_path: Path) -> None:
+    folder = begun(tmp_path)
+    with folder_lock(tmp_path), pytest.raises(RunError) as caught:
+        folder.policies()
+    assert str(caught.value) == (
+        f"{tmp_path}: process {os.getpid()} is training it, and has saved nothing yet: wait for a minute"
+    )
+
+
+def test_a_summary_that_was_changed_is_refused_in_one_line(tmp_path: Path) -> None:
+    folder = begun(tmp_path)
+    folder.save(trainer_in(folder), 12.5)
+    summary = (tmp_path / "summary.json").read_text("utf-8")
+    (tmp_path / "summary.json").write_text(summary.replace("12.5", "13.5"), "utf-8")
+    with pytest.raises(RunError, match=r"summary\.json: is damaged: remove it, and the seconds are counted"):
+        folder.wall_s_so_far()
+    (tmp_path / "summary.json").unlink()
+    assert folder.wall_s_so_far() == 0.0
+
+
 def test_a_full_disk_is_reported_and_leaves_no_half_begun_checkpoint(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -120,35 +142,29 @@ def test_a_full_disk_is_reported_and_leaves_no_half_begun_checkpoint(
     with pytest.raises(RunError, match="make room and begin again"):
         folder.save_before_all(trainer_in(folder))
     assert not (tmp_path / "run" / "checkpoint").exists()
-    with pytest.raises(RunError, match="No space left on device: name another folder"):
+    with pytest.raises(RunError, match="no space left on the disk: name another folder, or make room"):
         folder.begin()
     with pytest.raises(RunError, match="make room, then mc-nested train --resume"):
         folder.save(trainer_in(folder), 0.0)
 
 
-DAMAGES: dict[str, Callable[[Arrays], object]] = {
-    "has no array low": lambda state: state.pop("policies.low"),
-    "has no array scores": lambda state: state.pop("policies.scores"),
-    "its array main is (1, 7), it should be (2, ": lambda state: state.update(
-        {"policies.main": np.zeros((1, 7), np.float32)}
-    ),
-    "its array scores is (3,), it should be (2,)": lambda state: state.update({"policies.scores": np.zeros(3)}),
-    "its array low holds what is no number": lambda state: state["policies.low"].fill(np.nan),
-    "its array scores holds what is no number": lambda state: state["policies.scores"].fill(np.nan),
-    "its array main holds what is no number": lambda state: state.update(
-        {"policies.main": state["policies.main"].astype(str)}
-    ),
+MISFITS: dict[str, Callable[[Arrays], object]] = {
+    "no network": lambda state: state.pop("policies.low"),
+    "no scores": lambda state: state.pop("policies.scores"),
+    "another network": lambda state: state.update({"policies.main": np.zeros((1, 7), np.float32)}),
+    "a trial more": lambda state: state.update({"policies.scores": np.zeros(3)}),
 }
-"""What a checkpoint can have wrong that was made by hand, by what is said of it."""
+"""What a whole checkpoint can hold where a network of one's own was changed since."""
 
 
-@pytest.mark.parametrize("says", DAMAGES)
-def test_damaged_policies_are_refused_with_the_checkpoints_file_name(says: str, tmp_path: Path) -> None:
+@pytest.mark.parametrize("misfit", MISFITS)
+def test_policies_that_do_not_fit_the_preset_are_refused_with_the_checkpoints_file_name(
+    misfit: str, tmp_path: Path
+) -> None:
     folder = begun(tmp_path)
     trainer = trainer_in(folder)
     folder.save(trainer, 1.0)
     assert folder.policies().keys() == trainer.policies.keys()
-    change_arrays(folder.checkpoint.file, DAMAGES[says])
-    with pytest.raises(RunError, match=re.escape(f"{folder.checkpoint.file}: {says}")) as caught:
+    change_arrays(folder.checkpoint.file, MISFITS[misfit])
+    with pytest.raises(RunError, match=re.escape(f"{folder.checkpoint.file}: holds networks of another shape")):
         folder.policies()
-    assert str(caught.value).endswith(": bring back a whole copy, or train the run again")

@@ -1,6 +1,8 @@
 """Drives load_font and Font with atlases of the drawn font, whole and damaged; reading frames is left to others."""
 
 import io
+import subprocess
+import sys
 import zipfile
 from pathlib import Path
 
@@ -14,6 +16,7 @@ from numpy.typing import NDArray
 from mc_nested.errors import FontError
 from mc_nested.live.vision.font import ENTRY, Font, font_of, load_font
 from sim.client.drawing.letters import drawn_atlas
+from tests.live.huge_picture import png_of_nothing
 
 LETTERS = [chr(code) for code in range(ord("!"), ord("~") + 1)]
 
@@ -54,6 +57,29 @@ def test_a_finer_picture_of_the_same_dots_gives_the_same_font(times: int) -> Non
 def test_a_picture_of_sixteen_bits_gives_the_same_font(tmp_path: Path) -> None:
     (tmp_path / "deep.png").write_bytes(png(drawn_atlas().astype(np.uint16) * 257))
     assert load_font(tmp_path / "deep.png") == font_of(drawn_atlas())
+
+
+@pytest.mark.skipif(not Path("/proc/self/status").exists(), reason="Linux says how much memory a process has taken")
+def test_a_picture_of_a_billion_pixels_is_refused_by_its_stated_size(tmp_path: Path) -> None:
+    (tmp_path / "huge.png").write_bytes(png_of_nothing(30_000, 30_000))
+    measure = (
+        "import pathlib, re, sys, time\n"
+        "from mc_nested.errors import FontError\n"
+        "from mc_nested.live.vision.font import load_font\n"
+        "began = time.process_time()\n"
+        "try:\n"
+        "    load_font(pathlib.Path(sys.argv[1]))\n"
+        "except FontError as error:\n"
+        "    status = pathlib.Path('/proc/self/status').read_text()\n"
+        "    print(time.process_time() - began, re.search(r'VmHWM:\\s+(\\d+) kB', status)[1], error)\n"
+    )
+    words = [sys.executable, "-c", measure, str(tmp_path / "huge.png")]
+    done = subprocess.run(words, capture_output=True, text=True, check=True)
+    seconds, kilobytes, says = done.stdout.split(" ", 2)
+    assert "huge.png has more pixels than any screen: give the game's jar" in says
+    assert float(seconds) < 1
+    assert int(kilobytes) < 200_000
+    assert done.stderr == ""
 
 
 def test_a_glyph_advances_the_pen_by_its_width_and_a_gap_and_a_space_by_four() -> None:

@@ -85,7 +85,7 @@ def test_a_hotbar_reddened_by_its_height_looks_like_death() -> None:
     assert hotbar_look(drawn, GUI_HEIGHT) == "death"
 
 
-@given(st.floats(0.0, 0.96), st.integers(0, 40))
+@given(st.floats(0.0, 0.95), st.integers(0, 40))
 def test_a_darkened_hotbar_is_not_clear(share: float, over: int) -> None:
     drawn = dots()
     drawn[:, -182:] = np.rint(drawn[:, -182:] * share + over * (1 - share))
