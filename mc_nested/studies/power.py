@@ -5,7 +5,6 @@ An estimate from few trials is rough, and so is the number that follows from it.
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Protocol
 
 import numpy as np
 from scipy import stats
@@ -17,16 +16,6 @@ POWER = 0.8
 
 MOST_TRIALS = 1000
 """The most trials that are considered: nobody trains more."""
-
-
-class TestedEffect(Protocol):
-    """How large is what a line of a claim says, and how often so many trials would show it."""
-
-    def power_for(self, trials: Int64s, alpha: float) -> Float64s:
-        """Return the chance that a test at that level shows it, for each number of trials (n,)."""
-
-    def power_against(self, trials: Int64s, alpha: float) -> Float64s:
-        """Return the chance that a test at that level shows its opposite, for each number of trials (n,)."""
 
 
 @dataclass(frozen=True)
@@ -44,9 +33,11 @@ class MeanEffect:
     spread: float
 
     def power_for(self, trials: Int64s, alpha: float) -> Float64s:
+        """Return the chance that a test at that level shows it, for each number of trials (n,)."""
         return self._power(self.above, trials, alpha)
 
     def power_against(self, trials: Int64s, alpha: float) -> Float64s:
+        """Return the chance that a test at that level shows its opposite, likewise."""
         return self._power(-self.above, trials, alpha)
 
     def _power(self, distance: float, trials: Int64s, alpha: float) -> Float64s:
@@ -72,6 +63,10 @@ class ShareEffect:
 
     def power_against(self, trials: Int64s, alpha: float) -> Float64s:
         return _shown(1 - self.share, trials, alpha)
+
+
+TestedEffect = MeanEffect | ShareEffect
+"""How large is what a line of a claim says."""
 
 
 def deciding_trials(effects: Sequence[TestedEffect]) -> int | None:

@@ -12,7 +12,7 @@ from mc_nested.studies.claim_text import claim_section, claims_table, method
 from mc_nested.studies.claims.contests import HIERARCHICAL, NESTED, UNSOLVED
 from mc_nested.studies.claims.costs import MEGA
 from mc_nested.studies.claims.judge import judge
-from mc_nested.studies.claims.longer import trials_solved
+from mc_nested.studies.claims.scores import trials_solved
 from mc_nested.studies.config import StudyConfig
 from mc_nested.studies.figure5 import figure5
 from mc_nested.studies.inference import coverage, share_interval

@@ -1,14 +1,14 @@
 """Every claim of the paper about its three agents, with its verdict."""
 
 from mc_nested.studies.claims.costs import fewer_parts, smaller_replays
-from mc_nested.studies.claims.longer import solved_in_the_end
 from mc_nested.studies.claims.scores import (
     above_single,
     ahead_of_single_early,
     ahead_on_the_line,
     alike_on_the_unsolved,
+    solved_in_the_end,
+    steadier,
 )
-from mc_nested.studies.claims.stability import steadier
 from mc_nested.studies.results import Results
 from mc_nested.studies.verdicts import JudgedClaim, judged
 
