@@ -85,7 +85,7 @@ class Practice:
         reset()
         return np.ones(len(runs), dtype=np.bool_)
 
-    def practise(  # noqa: ARG002
+    def practise(
         self,
         run: int,  # noqa: ARG002
         material: int,  # noqa: ARG002

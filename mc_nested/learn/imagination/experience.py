@@ -60,6 +60,11 @@ class Experience:
         return self.episodes, len(self._steps)
 
     @property
+    def is_stuck(self) -> bool:
+        """Whether whole episodes are remembered, and no block was used in any."""
+        return bool(self._extras) and all(step.blocks == step.next_blocks for step in self._steps)
+
+    @property
     def extras(self) -> Float64s:
         """For each finished episode its material, what it scored beyond the sum of r_N, and that sum, (episodes, 3)."""
         return np.array(self._extras, dtype=np.float64).reshape(len(self._extras), 3)

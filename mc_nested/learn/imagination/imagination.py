@@ -217,6 +217,7 @@ class Imagination:
         return FirstTries(
             bool(self._explores[run]),
             bool(self._falls_short[run]),
+            self._experience[run].is_stuck,
             self._untried[run],
             self._unclear[run],
             self._tries[run],

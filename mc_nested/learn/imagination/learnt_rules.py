@@ -37,8 +37,8 @@ class LearntRules:
 
     ``moves`` (actions, 2) is the cells that each action's move covers, ``known`` (actions,) whether it was ever seen to
     move, ``places`` (actions,) whether it places a block after it, ``lands`` where: cells from the agent. ``walls``
-    (size, size) are solid from the beginning. ``astray`` (steps,) has the Assumption that each of the transitions speaks
-    against, HOLDS where it is as these rules say.
+    (size, size) are solid from the beginning. ``astray`` (steps,) has the Assumption that each transition speaks
+    against, HOLDS where it speaks against none.
     """
 
     moves: Int64s
@@ -52,15 +52,17 @@ class LearntRules:
 def learn_rules(steps: Int64s, first_of_episode: Int64s, actions: int, size: int) -> LearntRules:
     """Return the rules that most transitions (steps, 9) (experience.py) of a ``size`` x ``size`` arena agree on."""
     moves, known = _learn_moves(steps, actions)
-    around = [
-        (right, forward)
-        for right in range(-REACH, REACH + 1)
-        for forward in range(-REACH, REACH + 1)
-        if (right, forward) != (0, 0)
-    ]
-    seen = _Seen.of(steps, first_of_episode, moves, size, slips=bool(unclear_moves(steps, actions).any()))
-    best = max((_explain(seen, lands, actions) for lands in around), key=lambda explained: explained.score)
-    return LearntRules(moves, known, best.places, best.lands, best.walls, _astray(seen, best, moves))
+    reach = range(-REACH, REACH + 1)
+    around = [(right, forward) for right in reach for forward in reach if (right, forward) != (0, 0)]
+    seen = _seen(steps, first_of_episode, moves, size, slips=bool(unclear_moves(steps, actions).any()))
+    explained = [_explain(seen, lands, actions) for lands in around]
+    # Until a block was used, all that is known is where none could land: where all could, no action would place any.
+    best = max(explained, key=lambda each: (each.score, seen.used.any() or each.places.sum()))
+    astray, shifts = np.maximum(paid_otherwise(steps), best.astray), steps[:, 4:6] - steps[:, 0:2]
+    otherwise = shifts.any(axis=1) & (shifts != moves[steps[:, 3]]).any(axis=1)
+    of_another = (shifts[:, None] == moves[known]).all(axis=2).any(axis=1)
+    astray[otherwise] = np.where(of_another | ~known.all(), Assumption.SLIPS, Assumption.MOVES)[otherwise]
+    return LearntRules(moves, known, best.places, best.lands, best.walls, astray)
 
 
 def unclear_moves(steps: Int64s, actions: int) -> Bools:
@@ -90,47 +92,53 @@ def _steps_made(steps: Int64s, actions: int) -> list[tuple[Int64s, Int64s]]:
 
 
 class _Seen(NamedTuple):
-    """Transitions as they are replayed, an entry for each step.
+    """Transitions, (steps,) each, in an arena with a border of REACH cells, where one index names a cell.
 
-    ``bumps`` are the cells inside that an action led to though the agent stayed, None where it didn't; ``after`` where
-    the agent was then. ``slips``: whether actions slip.
+    ``episode`` counts them, ``did`` are actions, ``is_new`` says whether that wasn't done in
+    this episode before, in that cell with as many blocks: who goes round shows nothing new; ``used`` says whether a block was. ``after`` is where the agent was
+    then, ``ahead`` where the action led to, ``bumped`` whether that is inside and the agent stayed. ``inside`` (cells,)
+    is False in the border; ``slips``: whether actions slip.
     """
 
-    steps: Int64s
-    begins: list[bool]
-    bumps: list[Cell | None]
-    after: list[Cell]
+    episode: Int64s
+    did: Int64s
+    is_new: Bools
     used: Bools
-    size: int
+    after: Int64s
+    ahead: Int64s
+    bumped: Bools
+    inside: Bools
+    side: int
     slips: bool
 
-    @classmethod
-    def of(cls, steps: Int64s, first_of_episode: Int64s, moves: Int64s, size: int, *, slips: bool) -> "_Seen":
-        """Prepare those transitions (steps, 9), in which the actions' moves are these."""
-        begins = np.zeros(len(steps), dtype=np.bool_)
-        begins[first_of_episode[first_of_episode < len(steps)]] = True
-        ahead = steps[:, 0:2] + moves[steps[:, 3]]
-        inside = ((ahead >= 0) & (ahead < size)).all(axis=1)
-        stayed = (steps[:, 0:2] == steps[:, 4:6]).all(axis=1)
-        bumped = inside & stayed & (ahead != steps[:, 0:2]).any(axis=1)
-        bumps = [(x, y) if hit else None for (x, y), hit in zip(ahead.tolist(), bumped.tolist(), strict=True)]
-        after = [(x, y) for x, y in steps[:, 4:6].tolist()]
-        return cls(steps, begins.tolist(), bumps, after, steps[:, 2] > steps[:, 6], size, slips)
+
+def _seen(steps: Int64s, first_of_episode: Int64s, moves: Int64s, size: int, *, slips: bool) -> _Seen:
+    """Return the transitions (steps, 9), in which the actions' moves are these, to be replayed."""
+    side, ahead = size + 2 * REACH, steps[:, 0:2] + moves[steps[:, 3]]
+    strides = np.array([side, 1])
+    inside = np.pad(np.ones((size, size), dtype=np.bool_), REACH).ravel()
+    here, after, at = (
+        (np.clip(cells, -REACH, size) + REACH) @ strides for cells in (steps[:, 0:2], steps[:, 4:6], ahead)
+    )
+    episode = np.searchsorted(first_of_episode, np.arange(len(steps)), side="right")
+    bumped = (here == after) & (at != here) & inside[at]
+    is_new = np.zeros(len(steps), dtype=np.bool_)
+    is_new[np.unique(np.column_stack((episode, steps[:, :4])), axis=0, return_index=True)[1]] = True
+    return _Seen(episode, steps[:, 3], is_new, steps[:, 2] > steps[:, 6], after, at, bumped, inside, side, slips)
 
 
 class _Explained(NamedTuple):
     """How well a place for blocks explains what happened, with the actions that place and the walls that go with it.
 
-    ``blocked`` and ``misplaced`` are steps that it doesn't explain: the agent went through a block, or was stopped
-    where it isn't always; a block landed where none could, or didn't where others did.
+    ``astray`` as of LearntRules: the agent went through a block, or was stopped where it isn't always; a block landed
+    where none could, or didn't where others did.
     """
 
     score: int
     lands: Cell
     places: Bools
     walls: Bools
-    blocked: list[int]
-    misplaced: list[int]
+    astray: Int64s
 
 
 def _explain(seen: _Seen, lands: Cell, actions: int) -> _Explained:
@@ -141,36 +149,23 @@ def _explain(seen: _Seen, lands: Cell, actions: int) -> _Explained:
     explain what was stopped by nothing; each speaks against it once, and so does whatever went through one. What was
     paid says nothing here: wherever blocks land, as many cells are paid.
     """
-    score, taken, through = 0, set[Cell](), list[int]()
-    bumps: list[tuple[int, Cell]] = []
-    fits = np.zeros(len(seen.steps), dtype=np.bool_)
-    (right, forward), size = lands, seen.size
-    parts = zip(seen.begins, seen.bumps, seen.after, seen.used.tolist(), strict=True)
-    for at, (begins, bump, after, used) in enumerate(parts):
-        if begins:
-            taken = set()
-        if after in taken:
-            through.append(at)
-        elif bump in taken:
-            score += 1
-        elif bump:
-            bumps.append((at, bump))
-        block = (after[0] + right, after[1] + forward)
-        fits[at] = 0 <= block[0] < size and 0 <= block[1] < size and block not in taken
-        if used:
-            score += 1 if fits[at] else -1
-            taken.add(block)
-    landing, did = seen.steps[:, 4:6] + np.array(lands), seen.steps[:, 3]
-    walls, _, _ = _find_walls(seen, bumps, landing)
-    places, _ = _learn_places(seen, fits & ~_at(walls, landing), actions)
-    refused = np.flatnonzero(fits & ~seen.used & places[did])
-    refusals = [(at, (x, y)) for at, (x, y) in zip(refused.tolist(), landing[refused].tolist(), strict=True)]
-    walls, against, unclear = _find_walls(seen, [*bumps, *refusals], landing)
-    places, odd = _learn_places(seen, fits & ~_at(walls, landing), actions)
-    blocked = [*through, *(at for at, _ in bumps if at in unclear)]
-    misplaced = np.flatnonzero(seen.used & ~(fits & places[did])).tolist()
-    misplaced += [at for at, _ in refusals if at in unclear]
-    return _Explained(score - len(through) - against - odd, lands, places, walls, blocked, misplaced)
+    time, landing = np.arange(len(seen.did)), seen.after + lands[0] * seen.side + lands[1]
+    built_at = np.full((int(seen.episode.max(initial=0)) + 1, len(seen.inside)), len(time))
+    np.minimum.at(built_at, (seen.episode[seen.used], landing[seen.used]), time[seen.used])
+    through, stopped, taken = (built_at[seen.episode, at] < time for at in (seen.after, seen.ahead, landing))
+    bumped, fits = seen.bumped & ~through, seen.inside[landing] & ~taken
+    bumps = bumped & ~stopped
+    walls, _, _ = _find_walls(seen, landing, bumps & seen.is_new, np.zeros_like(bumps))
+    places, _ = _learn_places(seen, fits & ~walls[landing], actions)
+    refused = fits & ~seen.used & places[seen.did]
+    walls, against, unclear = _find_walls(seen, landing, bumps & seen.is_new, refused & seen.is_new)
+    places, odd = _learn_places(seen, fits & ~walls[landing], actions)
+    astray = np.where(seen.used & ~(fits & places[seen.did]) | refused & unclear[landing], Assumption.LANDS, 0)
+    astray[through | bumps & unclear[seen.ahead]] = Assumption.SOLID
+    score = np.count_nonzero(bumped & stopped) + np.count_nonzero(seen.used & fits)
+    score -= np.count_nonzero(through) + np.count_nonzero(seen.used & ~fits) + against + odd
+    within = walls.reshape(seen.side, seen.side)[REACH:-REACH, REACH:-REACH]
+    return _Explained(score, lands, places, within, astray)
 
 
 def _learn_places(seen: _Seen, fits: Bools, actions: int) -> tuple[Bools, int]:
@@ -178,47 +173,27 @@ def _learn_places(seen: _Seen, fits: Bools, actions: int) -> tuple[Bools, int]:
 
     And how many of those tries were odd: where a block can land, an action places one always or never.
     """
-    tries = np.bincount(seen.steps[fits, 3], minlength=actions)
-    uses = np.bincount(seen.steps[fits & seen.used, 3], minlength=actions)
+    fits &= seen.is_new
+    tries = np.bincount(seen.did[fits], minlength=actions)
+    uses = np.bincount(seen.did[fits & seen.used], minlength=actions)
     # An action that was never tried where a block could land is taken to place one: trying it will tell.
     places: Bools = uses > PLACES_ABOVE * tries - (tries == 0)
     return places, int(np.minimum(uses, tries - uses).sum())
 
 
-def _find_walls(seen: _Seen, stops: list[tuple[int, Cell]], landing: Int64s) -> tuple[Bools, int, set[int]]:
-    """Return the cells that are walls (size, size), how much speaks against them, and the stops that aren't always so.
+def _find_walls(seen: _Seen, landing: Int64s, bumps: Bools, refused: Bools) -> tuple[Bools, int, Bools]:
+    """Return which cells are walls (cells,), how much speaks against them, and what stops now and then (cells,).
 
-    ``stops`` are the steps in which something was stopped that no block explains, and the cell; what went into a cell,
-    the agent or its block at ``landing`` (steps, 2), speaks for its being free.
+    In the steps ``bumps`` the agent, in those ``refused`` a block at ``landing`` was stopped though no block was there;
+    what goes into a cell, the agent or its block, speaks for its being free.
     """
-    walls, against, unclear = np.zeros((seen.size, seen.size), dtype=np.bool_), 0, set[int]()
-    for cell in {cell for _, cell in stops}:
-        stopped = [at for at, where in stops if where == cell]
-        went = (seen.steps[:, 4:6] == cell).all(axis=1) | (seen.used & (landing == cell).all(axis=1))
-        went[stopped] = False
-        free = np.flatnonzero(went)
-        later = np.argsort(np.argsort(np.concatenate((stopped, free)), kind="stable"))
-        weights = FADES ** (len(later) - 1.0 - later)
-        lead = weights[: len(stopped)].sum() - weights[len(stopped) :].sum()
+    walls, unclear, against = np.zeros_like(seen.inside), np.zeros_like(seen.inside), 0
+    for cell in np.union1d(seen.ahead[bumps], landing[refused]).tolist():
+        stops = bumps & (seen.ahead == cell) | refused & (landing == cell)
+        frees = ~stops & ((seen.after == cell) | seen.used & (landing == cell))
+        votes = (stops.astype(np.int64) - frees)[stops | frees]
+        lead = float(votes @ FADES ** np.arange(len(votes))[::-1])
         walls[cell] = lead > (WALL_ABOVE_WITH_SLIPS if seen.slips else WALL_ABOVE)
-        against += 1 + len(free) if walls[cell] else len(stopped)
-        unclear |= set(stopped) if len(free) else set()
+        unclear[cell] = frees.any()
+        against += 1 + np.count_nonzero(frees) if walls[cell] else np.count_nonzero(stops)
     return walls, against, unclear
-
-
-def _astray(seen: _Seen, explained: _Explained, moves: Int64s) -> Int64s:
-    """Return the Assumption that each step speaks against, (steps,)."""
-    astray = paid_otherwise(seen.steps)
-    astray[explained.misplaced] = Assumption.LANDS
-    astray[explained.blocked] = Assumption.SOLID
-    shifts = seen.steps[:, 4:6] - seen.steps[:, 0:2]
-    astray[shifts.any(axis=1) & (shifts != moves[seen.steps[:, 3]]).any(axis=1)] = Assumption.MOVES
-    return astray
-
-
-def _at(cells: Bools, where: Int64s) -> Bools:
-    """Return what ``cells`` (size, size) say at those places (k, 2); False outside."""
-    inside = ((where >= 0) & (where < len(cells))).all(axis=1)
-    at = np.where(inside[:, None], where, 0)
-    found: Bools = inside & cells[at[:, 0], at[:, 1]]
-    return found

@@ -12,7 +12,7 @@ LAST = 3
 """A material brings the mean of so many episodes: fewer would follow a change sooner, more would outvote an odd one."""
 
 BUILT = 2
-"""Once a whole design was built so often, a material that wasn't played since is tried again: r_M may be any function."""
+"""Once a whole design was built so often, a material that wasn't played since is tried again."""
 
 MOST_UPDATES, CLOSE = 3000, 0.25
 """Updates at most, once an episode; it ends earlier once every value is as close as this to the imagined score."""

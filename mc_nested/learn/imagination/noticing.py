@@ -14,6 +14,9 @@ EPISODES, SHARE = 3, 0.1
 """In so many episodes in a row more than this share of the steps has to go otherwise: an odd step in twenty is a slip,
 and an episode or two are a game that changes."""
 
+RECENT, STEPS = 10, 2
+"""Or in as many of the last ten episodes so many steps that no slip explains; so many suffice that no action does."""
+
 CHANGES = 2
 """What pays and what doesn't may change once."""
 
@@ -26,6 +29,7 @@ class Assumption(IntEnum):
     SOLID = 2
     LANDS = 3
     MATERIAL = 4
+    SLIPS = 5
 
 
 IN_WORDS = {
@@ -33,6 +37,7 @@ IN_WORDS = {
     Assumption.SOLID: "cells are solid now and then where nothing was built, or blocks aren't",
     Assumption.LANDS: "blocks don't all land in one cell as seen from the agent",
     Assumption.MATERIAL: "what pays depends on the material",
+    Assumption.SLIPS: "too many actions do what another does",
 }
 
 
@@ -41,8 +46,13 @@ def broken_assumption(astray: Int64s, first_of_episode: Int64s) -> Assumption:
 
     ``astray`` (steps,) says what each step speaks against (learnt_rules.py).
     """
-    last = np.split(astray, first_of_episode[1:])[-EPISODES:]
-    if len(last) < EPISODES or any(np.count_nonzero(part) <= SHARE * len(part) for part in last):
+    last = np.split(astray, first_of_episode[1:])[-RECENT:]
+    slips = bool((astray == Assumption.SLIPS).any())
+    often = [np.count_nonzero(part) > SHARE * len(part) for part in last[-EPISODES:]]
+    surely = [not slips and np.count_nonzero(part) >= STEPS for part in last]
+    if np.count_nonzero(astray == Assumption.MOVES) >= STEPS:
+        return Assumption.MOVES
+    if sum(often) < EPISODES and sum(surely) < EPISODES:
         return Assumption.HOLDS
     return Assumption(int(np.bincount(np.concatenate(last))[1:].argmax()) + 1)
 
