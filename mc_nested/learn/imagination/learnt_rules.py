@@ -14,8 +14,8 @@ from mc_nested.arena.action import Cell
 from mc_nested.arrays import Bools, Int64s
 from mc_nested.learn.imagination.noticing import Assumption, paid_otherwise
 
-REACH = 1
-"""How far from the agent a block can land, in cells along each axis."""
+REACH, FURTHER = 1, 2
+"""How far from the agent a block can land, in cells along each axis; and how far it is looked whether it does, too."""
 
 PLACES_ABOVE = 0.5
 """An action places a block if it used one in more than this share of its tries where a block could land."""
@@ -52,13 +52,15 @@ class LearntRules:
 def learn_rules(steps: Int64s, first_of_episode: Int64s, actions: int, size: int) -> LearntRules:
     """Return the rules that most transitions (steps, 9) (experience.py) of a ``size`` x ``size`` arena agree on."""
     moves, known = _learn_moves(steps, actions)
-    reach = range(-REACH, REACH + 1)
-    around = [(right, forward) for right in reach for forward in reach if (right, forward) != (0, 0)]
     seen = _seen(steps, first_of_episode, moves, size, slips=bool(unclear_moves(steps, actions).any()))
-    explained = [_explain(seen, lands, actions) for lands in around]
+    around = np.argwhere(np.ones((2 * FURTHER + 1,) * 2)) - FURTHER
+    explained = [_explain(seen, (right, forward), actions) for right, forward in around.tolist()]
+    near = [each for each in explained if 0 < max(map(abs, each.lands)) <= REACH]
     # Until a block was used, all that is known is where none could land: where all could, no action would place any.
-    best = max(explained, key=lambda each: (each.score, seen.used.any() or each.places.sum()))
+    best = max(near, key=lambda each: (each.score, seen.used.any() or each.places.sum()))
     astray, shifts = np.maximum(paid_otherwise(steps), best.astray), steps[:, 4:6] - steps[:, 0:2]
+    if max(each.score for each in explained) > best.score + CLEAR * seen.slips:
+        astray[:] = Assumption.LANDS
     otherwise = shifts.any(axis=1) & (shifts != moves[steps[:, 3]]).any(axis=1)
     of_another = (shifts[:, None] == moves[known]).all(axis=2).any(axis=1)
     astray[otherwise] = np.where(of_another | ~known.all(), Assumption.SLIPS, Assumption.MOVES)[otherwise]
@@ -92,7 +94,7 @@ def _steps_made(steps: Int64s, actions: int) -> list[tuple[Int64s, Int64s]]:
 
 
 class _Seen(NamedTuple):
-    """Transitions, (steps,) each, in an arena with a border of REACH cells, where one index names a cell.
+    """Transitions, (steps,) each, in an arena with a border of FURTHER cells, where one index names a cell.
 
     ``episode`` counts them, ``did`` are actions, ``is_new`` says whether that wasn't done in
     this episode before, in that cell with as many blocks: who goes round shows nothing new; ``used`` says whether a block was. ``after`` is where the agent was
@@ -114,11 +116,11 @@ class _Seen(NamedTuple):
 
 def _seen(steps: Int64s, first_of_episode: Int64s, moves: Int64s, size: int, *, slips: bool) -> _Seen:
     """Return the transitions (steps, 9), in which the actions' moves are these, to be replayed."""
-    side, ahead = size + 2 * REACH, steps[:, 0:2] + moves[steps[:, 3]]
+    side, ahead = size + 2 * FURTHER, steps[:, 0:2] + moves[steps[:, 3]]
     strides = np.array([side, 1])
-    inside = np.pad(np.ones((size, size), dtype=np.bool_), REACH).ravel()
+    inside = np.pad(np.ones((size, size), dtype=np.bool_), FURTHER).ravel()
     here, after, at = (
-        (np.clip(cells, -REACH, size) + REACH) @ strides for cells in (steps[:, 0:2], steps[:, 4:6], ahead)
+        (np.clip(cells, -FURTHER, size) + FURTHER) @ strides for cells in (steps[:, 0:2], steps[:, 4:6], ahead)
     )
     episode = np.searchsorted(first_of_episode, np.arange(len(steps)), side="right")
     bumped = (here == after) & (at != here) & inside[at]
@@ -164,7 +166,7 @@ def _explain(seen: _Seen, lands: Cell, actions: int) -> _Explained:
     astray[through | bumps & unclear[seen.ahead]] = Assumption.SOLID
     score = np.count_nonzero(bumped & stopped) + np.count_nonzero(seen.used & fits)
     score -= np.count_nonzero(through) + np.count_nonzero(seen.used & ~fits) + against + odd
-    within = walls.reshape(seen.side, seen.side)[REACH:-REACH, REACH:-REACH]
+    within = walls.reshape(seen.side, seen.side)[FURTHER:-FURTHER, FURTHER:-FURTHER]
     return _Explained(score, lands, places, within, astray)
 
 

@@ -14,8 +14,11 @@ EPISODES, SHARE = 3, 0.1
 """In so many episodes in a row more than this share of the steps has to go otherwise: an odd step in twenty is a slip,
 and an episode or two are a game that changes."""
 
-RECENT, STEPS = 10, 2
-"""Or in as many of the last ten episodes so many steps that no slip explains; so many suffice that no action does."""
+RECENT = 10
+"""Or in as many of the last ten episodes one step, where nothing slips."""
+
+TWICE = 2
+"""A step that no action makes is no slip: so many suffice."""
 
 CHANGES = 2
 """What pays and what doesn't may change once."""
@@ -49,8 +52,8 @@ def broken_assumption(astray: Int64s, first_of_episode: Int64s) -> Assumption:
     last = np.split(astray, first_of_episode[1:])[-RECENT:]
     slips = bool((astray == Assumption.SLIPS).any())
     often = [np.count_nonzero(part) > SHARE * len(part) for part in last[-EPISODES:]]
-    surely = [not slips and np.count_nonzero(part) >= STEPS for part in last]
-    if np.count_nonzero(astray == Assumption.MOVES) >= STEPS:
+    surely = [not slips and part.any() for part in last]
+    if np.count_nonzero(astray == Assumption.MOVES) >= TWICE:
         return Assumption.MOVES
     if sum(often) < EPISODES and sum(surely) < EPISODES:
         return Assumption.HOLDS
