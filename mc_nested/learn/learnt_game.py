@@ -57,20 +57,18 @@ class LearntGame(Practice):
             self._imagination.learn_choice(run, elsewhere)
 
     def before_episode(self, runs: Int64s, materials: Int64s, reset: Callable[[], None]) -> Bools:
-        practised = [self.practise(run, int(materials[run])) for run in runs.tolist()]
+        practised = [self.practise(run, int(materials[run]), None, None) for run in runs.tolist()]
         reset()
         return np.array(practised, dtype=np.bool_)
 
-    def practise(
-        self, run: int, material: int, number: int | None = None, elsewhere: Collection[Cell] | None = None
-    ) -> bool:
+    def practise(self, run: int, material: int, number: int | None, elsewhere: Collection[Cell] | None) -> bool:
         if self._broken[run]:
             return self._excursions.teach_best(run, material, self._imagination.stream(run))
         return self._imagination.practise(run, material, number, elsewhere)
 
     def begin(self, runs: Int64s, numbers: Float64s) -> None:
         self._imagination.begin(runs)
-        self._excursions.begin(runs, numbers)
+        self._excursions.begin(runs, numbers * (self._broken > 0)[:, None])
 
     def act(self, runs: Int64s, observations: NDArray[Any], actions: Int64s, numbers: Float64s) -> Int64s:
         actions[runs] = self._imagination.act(runs, actions)
@@ -152,8 +150,8 @@ class LearntGameBesideIt(LearntGame):
         super().before_choice(runs, elsewhere)
 
     def before_episode(self, runs: Int64s, materials: Int64s, reset: Callable[[], None]) -> Bools:
-        practised = {run: self.practise(run, int(materials[run])) for run in runs[self._broken[runs] > 0].tolist()}
-        own = runs[self._broken[runs] == 0].tolist()
+        broken, own = runs[self._broken[runs] > 0].tolist(), runs[self._broken[runs] == 0].tolist()
+        practised = {run: self.practise(run, int(materials[run]), None, None) for run in broken}
         sessions = {run: self._imagination.session(run, int(materials[run])) for run in own}
         self._background.during_reset(sessions, reset)
         practised |= {run: self._imagination.builds_it_all(run, session) for run, session in sessions.items()}

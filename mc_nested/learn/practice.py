@@ -85,17 +85,11 @@ class Practice:
         reset()
         return np.ones(len(runs), dtype=np.bool_)
 
-    def practise(
-        self,
-        run: int,  # noqa: ARG002
-        material: int,  # noqa: ARG002
-        number: int | None = None,  # noqa: ARG002
-        elsewhere: Collection[Cell] | None = None,  # noqa: ARG002
-    ) -> bool:
+    def practise(self, run: int, material: int, number: int | None, elsewhere: Collection[Cell] | None) -> bool:  # noqa: ARG002
         """Practise that run's agent with that material; return whether it may be evaluated.
 
-        ``number`` is the practice's, unless it is that of the run's episode; other games probe the cells ``elsewhere``,
-        None where there are no such games.
+        ``number`` is the practice's, None for that before the run's next episode; other games probe the cells
+        ``elsewhere``, None where there are no such games.
         """
         return True
 

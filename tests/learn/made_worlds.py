@@ -1,22 +1,27 @@
 """Games that aren't what a learnt game takes for granted: walls, a torus, blocks elsewhere, scores of another form."""
 
-from collections.abc import Callable, Collection
+from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from mc_nested.arena import search
 from mc_nested.arena.action import Action, Cell
 from mc_nested.arena.env import ArenaEnv
-from mc_nested.arena.game import Outcome
-from mc_nested.arena.rules import PLACES, STEP
+from mc_nested.arena.game import Outcome, PlayLog, Resumable
+from mc_nested.arena.rules import PLACES, STEP, cells_of, grid_of
 from mc_nested.arena.scenario import Scenario
 from mc_nested.arena.vector import ArenaVectorEnv
+from mc_nested.arrays import Arrays
 from mc_nested.learn.agents import AGENT_SPECS, Agent
 from mc_nested.learn.preset import Preset
 from mc_nested.learn.trainer import Trainer
-from tests.learn.imagination.made_games import LIVE, Plain
+from tests.learn.imagination.made_games import LIVE
+
+ROW = frozenset((x, 13) for x in range(5, 10))
+"""Walls one step ahead of the start of the paper's designs, (7, 14)."""
 
 
 @dataclass(frozen=True)
@@ -38,12 +43,25 @@ class World:
     pays: dict[int, frozenset[Cell]] = field(default_factory=dict)
 
 
-class WorldGame(Plain):
-    """A game in such a world. It can't be saved half-way."""
+class WorldGame:
+    """A game in such a world."""
+
+    log: PlayLog | None = None
 
     def __init__(self, world: World, scenario: Scenario) -> None:
         self._world, self._start, self._size = world, scenario.start, scenario.size
         self._cell, self._blocks = scenario.start, set[Cell]()
+
+    @property
+    def resumable(self) -> Resumable:
+        return self
+
+    def snapshot(self) -> Arrays:
+        return {"cell": np.array(self._cell), "blocks": grid_of(self._blocks, self._size)}
+
+    def restore(self, snapshot: Mapping[str, NDArray[Any]]) -> None:
+        x, y = snapshot["cell"].tolist()
+        self._cell, self._blocks = (x, y), set(cells_of(snapshot["blocks"]))
 
     def reset(self, material: int) -> Cell:  # noqa: ARG002 - the game is the same for every material
         self._cell, self._blocks = self._start, set()
@@ -124,7 +142,3 @@ def one_wall(scenario: Scenario, seed: int) -> frozenset[Cell]:
         x, y = random.integers(0, scenario.size, 2).tolist()
         if (x, y) not in scenario.design | {scenario.start} and fewest_steps_among([(x, y)], scenario) is not None:
             return frozenset({(x, y)})
-
-
-ROW = frozenset((x, 13) for x in range(5, 10))
-"""Walls one step ahead of the start of the paper's designs, (7, 14)."""

@@ -7,7 +7,7 @@ import pytest
 
 from mc_nested.arena.scenario_file import load_scenario
 from mc_nested.learn.trainer import Trainer
-from tests.learn.made_trainings import copied
+from tests.learn.made_trainings import assert_same, copied
 from tests.learn.made_worlds import ROW, World, fewest_steps_among, one_wall, trained_in
 
 LINE = load_scenario("line")
@@ -77,11 +77,13 @@ def test_a_torus_is_told_and_explored_and_goes_on_from_a_checkpoint() -> None:
         trainer.tick()
     resumed = trained_in(BROKEN["torus"], LINE, 1)
     resumed.load(copied(trainer.state()), [trainer.journal(None)])
-    trainer.abandon_episodes()
     for each in (trainer, resumed):
-        for _ in range(200):
+        for _ in range(400):
             each.tick()
-    assert resumed.episode_rows == trainer.episode_rows
+    assert_same(resumed, trainer)
+    assert resumed.practice.news() == [], "it was told before"
+    policy = max(trainer.evaluation_rows, key=lambda row: row.score)
+    assert policy.score > LINE.materials[1].p, "the networks do what the best excursion did"
 
 
 def each_seed(test: Callable[..., None]) -> Callable[..., None]:

@@ -22,7 +22,8 @@ class FirstTries:
     """What one run has tried of its actions, (actions,) each. Its arrays change with what is observed.
 
     ``explores``: paying cells are still to be found. ``falls_short``: its last practice did. ``is_stuck``: in whole
-    episodes no block was used. ``untried`` actions have never moved, the moves of ``unclear`` ones may be slips, ``tries`` counts.
+    episodes no block was used. ``untried`` actions have never moved, the moves of ``unclear`` ones may be slips,
+    ``tries`` counts.
     """
 
     explores: bool

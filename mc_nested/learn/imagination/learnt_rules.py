@@ -20,7 +20,6 @@ REACH, FURTHER = 1, 2
 PLACES_ABOVE = 0.5
 """An action places a block if it used one in more than this share of its tries where a block could land."""
 
-
 CLEAR = 2
 """How many votes an action's commonest step must be ahead by, where actions slip."""
 
@@ -52,18 +51,19 @@ class LearntRules:
 def learn_rules(steps: Int64s, first_of_episode: Int64s, actions: int, size: int) -> LearntRules:
     """Return the rules that most transitions (steps, 9) (experience.py) of a ``size`` x ``size`` arena agree on."""
     moves, known = _learn_moves(steps, actions)
-    seen = _seen(steps, first_of_episode, moves, size, slips=bool(unclear_moves(steps, actions).any()))
+    shifts = steps[:, 4:6] - steps[:, 0:2]
+    otherwise = shifts.any(axis=1) & (shifts != moves[steps[:, 3]]).any(axis=1)
+    seen = _seen(steps, first_of_episode, moves, size, slips=bool(otherwise.any()))
     around = np.argwhere(np.ones((2 * FURTHER + 1,) * 2)) - FURTHER
     explained = [_explain(seen, (right, forward), actions) for right, forward in around.tolist()]
     near = [each for each in explained if 0 < max(map(abs, each.lands)) <= REACH]
     # Until a block was used, all that is known is where none could land: where all could, no action would place any.
     best = max(near, key=lambda each: (each.score, seen.used.any() or each.places.sum()))
-    astray, shifts = np.maximum(paid_otherwise(steps), best.astray), steps[:, 4:6] - steps[:, 0:2]
+    astray = np.maximum(paid_otherwise(steps), best.astray)
     if max(each.score for each in explained) > best.score + CLEAR * seen.slips:
         astray[:] = Assumption.LANDS
-    otherwise = shifts.any(axis=1) & (shifts != moves[steps[:, 3]]).any(axis=1)
-    of_another = (shifts[:, None] == moves[known]).all(axis=2).any(axis=1)
-    astray[otherwise] = np.where(of_another | ~known.all(), Assumption.SLIPS, Assumption.MOVES)[otherwise]
+    of_another = (shifts[:, None] == moves[known]).all(axis=2).any(axis=1) | ~known.all()
+    astray[otherwise] = np.where(of_another, Assumption.SLIPS, Assumption.MOVES)[otherwise]
     return LearntRules(moves, known, best.places, best.lands, best.walls, astray)
 
 
@@ -96,10 +96,10 @@ def _steps_made(steps: Int64s, actions: int) -> list[tuple[Int64s, Int64s]]:
 class _Seen(NamedTuple):
     """Transitions, (steps,) each, in an arena with a border of FURTHER cells, where one index names a cell.
 
-    ``episode`` counts them, ``did`` are actions, ``is_new`` says whether that wasn't done in
-    this episode before, in that cell with as many blocks: who goes round shows nothing new; ``used`` says whether a block was. ``after`` is where the agent was
-    then, ``ahead`` where the action led to, ``bumped`` whether that is inside and the agent stayed. ``inside`` (cells,)
-    is False in the border; ``slips``: whether actions slip.
+    ``episode`` counts them, ``did`` are actions, and ``is_new`` where that wasn't done before in this episode, in that
+    cell with as many blocks: who goes round shows nothing new. ``used`` says whether a block was. ``after`` is where
+    the agent was then, ``ahead`` where the action led to, ``bumped`` whether that is inside and the agent stayed.
+    ``inside`` (cells,) is False in the border; ``slips``: whether actions slip.
     """
 
     episode: Int64s

@@ -14,14 +14,11 @@ EPISODES, SHARE = 3, 0.1
 """In so many episodes in a row more than this share of the steps has to go otherwise: an odd step in twenty is a slip,
 and an episode or two are a game that changes."""
 
-RECENT = 10
-"""Or in as many of the last ten episodes one step, where nothing slips."""
-
-TWICE = 2
-"""A step that no action makes is no slip: so many suffice."""
+RECENT, TWICE = 10, 2
+"""Where nothing slips, a step in as many of the last ten episodes is enough; of a step that no action makes, two are."""
 
 CHANGES = 2
-"""What pays and what doesn't may change once."""
+"""Whether a cell pays may change once."""
 
 
 class Assumption(IntEnum):
@@ -45,10 +42,7 @@ IN_WORDS = {
 
 
 def broken_assumption(astray: Int64s, first_of_episode: Int64s) -> Assumption:
-    """Return what the last episodes, which have ended, speak against most.
-
-    ``astray`` (steps,) says what each step speaks against (learnt_rules.py).
-    """
+    """Return what ended episodes speak against; ``astray`` (steps,) has it for each step (learnt_rules.py)."""
     last = np.split(astray, first_of_episode[1:])[-RECENT:]
     slips = bool((astray == Assumption.SLIPS).any())
     often = [np.count_nonzero(part) > SHARE * len(part) for part in last[-EPISODES:]]

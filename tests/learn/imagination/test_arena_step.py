@@ -134,7 +134,7 @@ ARENA = imagined_arena(TRUE_RULES, believe(np.zeros((0, 9), np.int64), (0, 1), B
 
 def tries_of(untried: int | None = None) -> FirstTries:
     shown = np.arange(8) == untried
-    return FirstTries(True, False, shown, np.zeros(8, np.bool_), np.zeros(8, np.int64))
+    return FirstTries(True, False, False, shown, np.zeros(8, np.bool_), np.zeros(8, np.int64))
 
 
 @given(st.lists(st.sampled_from(list(Action)), min_size=BENT.step_limit, max_size=BENT.step_limit))

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from mc_nested.arena.action import Action, Cell
-from mc_nested.learn.imagination.experience import Experience
+from mc_nested.learn.imagination.experience import Experience, RealStep
 from mc_nested.learn.imagination.learnt_rules import LearntRules, learn_rules, unclear_moves
 from sim.grid import GridGame
 from tests.learn.imagination.made_games import (
@@ -152,7 +152,7 @@ def test_an_edge_and_a_block_of_ones_own_are_no_walls() -> None:
 def test_a_cell_where_a_block_does_not_land_is_a_wall() -> None:
     # RD is known to place a block; ahead of (3, 2), at (3, 3), it doesn't.
     seen, game = Experience(), walled((3, 3))
-    for actions in ([Action.RD], [Action.RD], [Action.F, Action.RD]):
+    for actions in ([Action.FD, Action.FD], [Action.RD], [Action.RD], [Action.F, Action.RD]):
         play(game, BENT, actions, seen)
     assert walls_of(seen) == {(3, 3)}
     assert learnt(seen).places[Action.RD]
@@ -167,12 +167,16 @@ def test_a_wall_that_was_entered_later_is_free() -> None:
     assert walls_of(seen) == {(2, 3)}, "and a wall again, once it stops again"
 
 
-def test_where_actions_slip_one_stop_is_a_slip_and_two_are_a_wall() -> None:
-    slips = (Action.R, 1, 0), (Action.R, 1, 0), (Action.R, 0, -1)
-    for stops, walls in ((1, 0), (2, 1)):
-        steps = moved(*slips, *[(Action.R, 0, 0)] * stops)
-        found = learn_rules(steps, np.arange(len(steps)), len(Action), BENT.size)
-        assert np.count_nonzero(found.walls) == walls
+@pytest.mark.parametrize(("stops", "walls"), [(1, 0), (2, 1)])
+def test_where_actions_slip_one_stop_is_a_slip_and_two_are_a_wall(stops: int, walls: int) -> None:
+    seen = Experience()
+    for _ in range(2):
+        play(GridGame(BENT), BENT, [Action.R, Action.F], seen)
+    seen.begin()
+    seen.add(RealStep(2, 1, 3, Action.R, 2, 2, 3, 0, 0))  # R does what F does
+    for _ in range(stops):
+        play(walled((4, 1)), BENT, [Action.R, Action.R], seen)
+    assert len(walls_of(seen)) == walls
 
 
 @pytest.mark.parametrize("seed", range(8))

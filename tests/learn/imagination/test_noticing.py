@@ -15,7 +15,7 @@ from tests.learn.made_worlds import World, WorldGame
 
 OTHER = replace(BENT, design=frozenset({(3, 2), (2, 3), (1, 1)}))
 
-MOVES, SOLID, LANDS, MATERIAL = Assumption.MOVES, Assumption.SOLID, Assumption.LANDS, Assumption.MATERIAL
+MOVES, SOLID, LANDS, MATERIAL, SLIPS = list(Assumption)[1:]
 
 
 def noticed(seen: Experience) -> Assumption:
@@ -34,13 +34,24 @@ def paid(*outcomes: tuple[int, int]) -> list[int]:
     return paid_otherwise(steps).tolist()
 
 
-def test_more_than_a_tenth_of_the_steps_of_three_episodes_is_noticed() -> None:
-    odd, fair = [MOVES, MOVES, *[0] * 17], [MOVES, *[0] * 9]
-    assert astray(odd, odd, odd) is MOVES
+def test_one_step_in_each_of_three_episodes_is_noticed_where_nothing_slips() -> None:
+    odd, even = [0, 0, SOLID], [0] * 40
+    assert astray(odd, even, odd, even, odd) is SOLID
+    assert astray(odd, even, odd) is Assumption.HOLDS
+    assert astray(odd, odd, *[even] * 9, odd) is Assumption.HOLDS, "ten episodes later it is forgotten"
+
+
+def test_where_actions_slip_more_than_a_tenth_of_the_steps_of_three_episodes_in_a_row_is_noticed() -> None:
+    odd, fair = [SLIPS, LANDS, LANDS, *[0] * 17], [SLIPS, *[0] * 9]
+    assert astray(odd, odd, odd) is LANDS
     assert astray(odd, odd) is Assumption.HOLDS
-    assert astray(odd, fair, odd) is Assumption.HOLDS
-    assert astray(fair, odd, odd, odd) is MOVES
-    assert astray([LANDS, SOLID], [SOLID, SOLID], [LANDS, LANDS]) in (LANDS, SOLID)
+    assert astray(odd, fair, odd, odd) is Assumption.HOLDS
+    assert astray(fair, odd, odd, odd) is LANDS
+
+
+def test_two_steps_that_no_action_makes_are_noticed() -> None:
+    assert astray([SLIPS, *[0] * 30, MOVES]) is Assumption.HOLDS
+    assert astray([SLIPS, MOVES, *[0] * 30, MOVES]) is MOVES
 
 
 def test_every_assumption_has_its_words() -> None:
@@ -73,6 +84,6 @@ def test_a_torus_moves_otherwise_at_its_edges(seed: int) -> None:
 
 def test_a_design_that_changes_breaks_no_assumption() -> None:
     seen, game = Experience(), GridGame(BENT)
-    for paying in (BENT, BENT, OTHER, OTHER, OTHER):
+    for paying in [BENT] * 3 + [OTHER] * 3:
         play(game, paying, [Action.R, Action.FD, Action.L, Action.FD], seen)
     assert noticed(seen) is Assumption.HOLDS
