@@ -1,7 +1,6 @@
 """In games that aren't what a learnt game takes for granted, the preset model-based learns, or says so and explores."""
 
 import os
-from collections.abc import Callable
 
 import pytest
 
@@ -86,28 +85,28 @@ def test_a_torus_is_told_and_explored_and_goes_on_from_a_checkpoint() -> None:
     assert policy.score > LINE.materials[1].p, "the networks do what the best excursion did"
 
 
-def each_seed(test: Callable[..., None]) -> Callable[..., None]:
-    return pytest.mark.slow(pytest.mark.parametrize("seed", SEEDS)(test))
-
-
-@each_seed
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", SEEDS)
 @pytest.mark.parametrize("design", ["line", "zigzag", "diamond"])
 def test_one_wall_costs_at_most_twice_the_episodes(design: str, seed: int) -> None:
     scenario = load_scenario(design)
     assert solved(trained_in(World(walls=one_wall(scenario, seed)), scenario, seed), 2 * SLOWEST[design])
 
 
-@each_seed
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", SEEDS)
 def test_a_row_of_walls_costs_at_most_three_times_the_episodes(seed: int) -> None:
     assert solved(trained_in(World(walls=ROW), LINE, seed), 3 * SLOWEST["line"])
 
 
-@each_seed
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", SEEDS)
 def test_a_score_of_another_form_costs_at_most_three_times_the_episodes(seed: int) -> None:
     assert solved(trained_in(MULTIPLIED, LINE, seed), 3 * SLOWEST["line"])
 
 
-@each_seed
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", SEEDS)
 @pytest.mark.parametrize("world", BROKEN)
 def test_a_game_that_does_not_hold_is_told_within_ten_episodes(world: str, seed: int) -> None:
     assert len(told(trained_in(BROKEN[world], LINE, seed))) == 1

@@ -15,7 +15,7 @@ EPISODES, SHARE = 3, 0.1
 and an episode or two are a game that changes."""
 
 RECENT, TWICE = 10, 2
-"""Where nothing slips, a step in as many of the last ten episodes is enough; of a step that no action makes, two are."""
+"""Where nothing slips, one in as many of the last ten episodes is enough; of steps that no action makes, two are."""
 
 CHANGES = 2
 """Whether a cell pays may change once."""

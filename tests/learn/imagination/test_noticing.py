@@ -31,7 +31,7 @@ def astray(*episodes: list[int]) -> Assumption:
 def paid(*outcomes: tuple[int, int]) -> list[int]:
     """Return what blocks in one cell speak against, from whether each was paid, and its material."""
     steps = np.array([(2, 1, 3, 4, 2, 2, 2, each, material) for each, material in outcomes])
-    return paid_otherwise(steps).tolist()
+    return list(paid_otherwise(steps))
 
 
 def test_one_step_in_each_of_three_episodes_is_noticed_where_nothing_slips() -> None:
