@@ -60,7 +60,8 @@ def learn_rules(steps: Int64s, first_of_episode: Int64s, actions: int, size: int
     # Until a block was used, all that is known is where none could land: where all could, no action would place any.
     best = max(near, key=lambda each: (each.score, seen.used.any() or each.places.sum()))
     astray = np.maximum(paid_otherwise(steps), best.astray)
-    if max(each.score for each in explained) > best.score + CLEAR * seen.slips:
+    # A wall speaks against each place once, though it may be there; another place might make do without.
+    if max(each.score for each in explained) > best.score + np.count_nonzero(best.walls) + CLEAR * seen.slips:
         astray[:] = Assumption.LANDS
     of_another = (shifts[:, None] == moves[known]).all(axis=2).any(axis=1) | ~known.all()
     astray[otherwise] = np.where(of_another, Assumption.SLIPS, Assumption.MOVES)[otherwise]
