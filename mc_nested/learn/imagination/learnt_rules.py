@@ -165,8 +165,8 @@ def _explain(seen: _Seen, lands: Cell, actions: int) -> _Explained:
     places, odd = _learn_places(seen, fits & ~walls[landing], actions)
     astray = np.where(seen.used & ~(fits & places[seen.did]) | refused & unclear[landing], Assumption.LANDS, 0)
     astray[through | bumps & unclear[seen.ahead]] = Assumption.SOLID
-    score = np.count_nonzero(bumped & stopped) + np.count_nonzero(seen.used & fits)
-    score -= np.count_nonzero(through) + np.count_nonzero(seen.used & ~fits) + against + odd
+    score = np.count_nonzero(bumped & stopped & seen.is_new) + np.count_nonzero(seen.used & fits)
+    score -= np.count_nonzero(through & seen.is_new) + np.count_nonzero(seen.used & ~fits) + against + odd
     within = walls.reshape(seen.side, seen.side)[FURTHER:-FURTHER, FURTHER:-FURTHER]
     return _Explained(score, lands, places, within, astray)
 
