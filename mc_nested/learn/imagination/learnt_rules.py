@@ -59,7 +59,7 @@ def learn_rules(steps: Int64s, first_of_episode: Int64s, actions: int, size: int
     near = [each for each in explained if 0 < max(map(abs, each.lands)) <= REACH]
     # Until a block was used, all that is known is where none could land: where all could, no action would place any.
     best = max(near, key=lambda each: (each.score, seen.used.any() or each.places.sum()))
-    astray = np.maximum(paid_otherwise(steps), best.astray)
+    astray = np.maximum(paid_otherwise(steps), best.astray * seen.is_new)
     # A wall speaks against each place once, though it may be there; another place might make do without.
     if max(each.score for each in explained) > best.score + np.count_nonzero(best.walls) + CLEAR * seen.slips:
         astray[:] = Assumption.LANDS
