@@ -90,7 +90,7 @@ class GamesAtPlay:
         lines = [line for event in self._games.events(LOOK_EVERY_S) if (line := self._handle(event))]
         if self._refused and not self._has_played and not any(record.is_here for record in self._records.values()):
             raise ClusterError("; ".join(f"{game} can't play: {why}" for game, why in self._refused.items()))
-        return lines
+        return [*lines, *self.training.practice.news()]
 
     def end(self) -> None:
         """Take the episodes that have come back by now, and ask the games for nothing more."""

@@ -44,7 +44,7 @@ class OwnPlayer:
             self.training.abandon_episodes()
             if not (isinstance(error, NotInFrontError) and self.was_paused_lately()):
                 self.failures.record_failure(error, self.training.env_steps)
-        return []
+        return self.training.practice.news()
 
     def end(self) -> None:
         """Do nothing: what is under way is saved half-way, or starts over."""

@@ -1,4 +1,8 @@
-"""The practice of a preset with [imagination]: in a game that is learnt from what was played (imagination/)."""
+"""The practice of a preset with [imagination]: in a game that is learnt from what was played (imagination/).
+
+Where that game turns out not to hold, a run returns and explores instead (exploration/), and its networks learn what
+the best episode did.
+"""
 
 from collections.abc import Callable, Collection, Mapping, Sequence
 from typing import Any
@@ -8,13 +12,21 @@ from numpy.typing import NDArray
 
 from mc_nested.arena.action import Cell
 from mc_nested.arena.scenario import Scenario
-from mc_nested.arrays import Arrays, Bools, Float64s, Int64s
+from mc_nested.arrays import Arrays, Bools, Float64s, Int64s, named_for, part_of
 from mc_nested.learn.agents import Agent
+from mc_nested.learn.exploration.return_then_explore import Excursions
 from mc_nested.learn.imagination.background_practice import Background, BackgroundPractice
 from mc_nested.learn.imagination.first_tries import FirstTries
 from mc_nested.learn.imagination.imagination import Imagination, Surroundings
+from mc_nested.learn.imagination.noticing import IN_WORDS
 from mc_nested.learn.practice import Practice, Step
-from mc_nested.learn.preset import Preset
+from mc_nested.learn.preset import ExcursionRule, Preset
+
+INSTEAD = ExcursionRule(at_end=0.1, wander=12, rejoin=0.4, repeat=0.8)
+"""How a run explores whose learnt game doesn't hold: as by the preset tuned."""
+
+EPSILON_INSTEAD = 0.1
+"""Its ε in a game of several, for which the learner plans no excursion."""
 
 
 class LearntGame(Practice):
@@ -24,14 +36,17 @@ class LearntGame(Practice):
         agent: what learns.
         preset: the hyper-parameters.
         imagination: the learnt games of its runs.
+        scenarios: each run's scenario, for excursions in the place of a game that doesn't hold.
     """
 
+    numbers = Excursions.numbers
     evaluate_every = 1
     """A policy that builds all of a known design is evaluated at once."""
 
-    def __init__(self, agent: Agent, preset: Preset, imagination: Imagination) -> None:
+    def __init__(self, agent: Agent, preset: Preset, imagination: Imagination, scenarios: Sequence[Scenario]) -> None:
         super().__init__(agent, preset)
-        self._imagination = imagination
+        self._imagination, self._excursions = imagination, Excursions(agent, preset, INSTEAD, scenarios)
+        self._broken, self._news = np.zeros(len(scenarios), dtype=np.int64), list[str]()
 
     @property
     def imagination(self) -> Imagination:
@@ -42,19 +57,22 @@ class LearntGame(Practice):
             self._imagination.learn_choice(run, elsewhere)
 
     def before_episode(self, runs: Int64s, materials: Int64s, reset: Callable[[], None]) -> Bools:
-        practised = [self._imagination.practise(run, int(materials[run])) for run in runs.tolist()]
+        practised = [self.practise(run, int(materials[run]), None, None) for run in runs.tolist()]
         reset()
         return np.array(practised, dtype=np.bool_)
 
-    def practise(self, run: int, material: int, number: int, elsewhere: Collection[Cell] | None) -> bool:
+    def practise(self, run: int, material: int, number: int | None, elsewhere: Collection[Cell] | None) -> bool:
+        if self._broken[run]:
+            return self._excursions.teach_best(run, material, self._imagination.stream(run))
         return self._imagination.practise(run, material, number, elsewhere)
 
-    def begin(self, runs: Int64s, numbers: Float64s) -> None:  # noqa: ARG002 - it draws none
+    def begin(self, runs: Int64s, numbers: Float64s) -> None:
         self._imagination.begin(runs)
+        self._excursions.begin(runs, numbers * (self._broken > 0)[:, None])
 
-    def act(self, runs: Int64s, observations: NDArray[Any], actions: Int64s, numbers: Float64s) -> Int64s:  # noqa: ARG002
+    def act(self, runs: Int64s, observations: NDArray[Any], actions: Int64s, numbers: Float64s) -> Int64s:
         actions[runs] = self._imagination.act(runs, actions)
-        return actions
+        return self._excursions.act(runs[self._broken[runs] > 0], observations, actions, numbers)
 
     def learn(self, step: Step) -> None:
         self._imagination.observe(
@@ -65,24 +83,44 @@ class LearntGame(Practice):
             step.rewards,
             step.next_observations,
         )
+        self._excursions.observe(step, self._agent.low_level_states(step.next_observations, step.next_materials))
 
     def end(self, runs: Int64s, materials: Int64s, scores: Float64s) -> None:
         self._imagination.end(runs, materials, scores)
+        self._excursions.end(runs, materials, scores)
+        for run in runs[self._broken[runs] == 0].tolist():
+            self._broken[run] = broken = self._imagination.broken_assumption(run)
+            if broken:
+                of_run = f"trial {run}: " if len(self._broken) > 1 else ""
+                self._news.append(
+                    f"{of_run}the learnt game doesn't hold: {IN_WORDS[broken]}; it explores by excursions now"
+                )
 
-    def knows_nothing(self, run: int) -> bool:
-        return not self._imagination.has_experience(run)
+    def epsilon_in_a_game(self, run: int, epsilon: float, games: int) -> float:
+        if self._broken[run]:
+            return EPSILON_INSTEAD
+        # Another game already plays what an untaught network says, which may stand still. By chance other cells are
+        # tried in each game, and an episode ends sooner.
+        return 1.0 if games and not self._imagination.has_experience(run) else epsilon
+
+    def news(self) -> list[str]:
+        told, self._news = self._news, []
+        return told
 
     def probes(self, run: int, material: int) -> frozenset[Cell]:
-        return self._imagination.probes(run, material)
+        return frozenset() if self._broken[run] else self._imagination.probes(run, material)
 
-    def first_tries(self, run: int, games: int) -> FirstTries:
-        return self._imagination.first_tries(run).beside(games)
+    def first_tries(self, run: int, games: int) -> FirstTries | None:
+        return None if self._broken[run] else self._imagination.first_tries(run).beside(games)
 
     def state(self) -> Arrays:
-        return self._imagination.state()
+        excursions = named_for("excursions", self._excursions.state())
+        return {**self._imagination.state(), **excursions, "broken": self._broken}
 
     def load(self, state: Mapping[str, NDArray[Any]]) -> None:
         self._imagination.load(state)
+        self._excursions.load(part_of(state, "excursions"))
+        self._broken[:] = state["broken"]
 
 
 class LearntGameBesideIt(LearntGame):
@@ -92,11 +130,19 @@ class LearntGameBesideIt(LearntGame):
         agent: what learns.
         preset: the hyper-parameters.
         imagination: the learnt games of its runs.
+        scenarios: each run's scenario.
         background: where it runs.
     """
 
-    def __init__(self, agent: Agent, preset: Preset, imagination: Imagination, background: Background) -> None:
-        super().__init__(agent, preset, imagination)
+    def __init__(
+        self,
+        agent: Agent,
+        preset: Preset,
+        imagination: Imagination,
+        scenarios: Sequence[Scenario],
+        background: Background,
+    ) -> None:
+        super().__init__(agent, preset, imagination, scenarios)
         self._background = BackgroundPractice(background)
 
     def before_choice(self, runs: Int64s, elsewhere: Collection[int] = ()) -> None:
@@ -104,11 +150,13 @@ class LearntGameBesideIt(LearntGame):
         super().before_choice(runs, elsewhere)
 
     def before_episode(self, runs: Int64s, materials: Int64s, reset: Callable[[], None]) -> Bools:
-        sessions = {run: self._imagination.session(run, int(materials[run])) for run in runs.tolist()}
+        broken, own = runs[self._broken[runs] > 0].tolist(), runs[self._broken[runs] == 0].tolist()
+        practised = {run: self.practise(run, int(materials[run]), None, None) for run in broken}
+        sessions = {run: self._imagination.session(run, int(materials[run])) for run in own}
         self._background.during_reset(sessions, reset)
-        practised = [self._imagination.builds_it_all(run, session) for run, session in sessions.items()]
+        practised |= {run: self._imagination.builds_it_all(run, session) for run, session in sessions.items()}
         self._background.during_episode()
-        return np.array(practised, dtype=np.bool_)
+        return np.array([practised[run] for run in runs.tolist()], dtype=np.bool_)
 
 
 def imagination_of(agent: Agent, scenarios: Sequence[Scenario], preset: Preset, seed: int) -> Imagination | None:

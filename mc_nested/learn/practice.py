@@ -85,10 +85,11 @@ class Practice:
         reset()
         return np.ones(len(runs), dtype=np.bool_)
 
-    def practise(self, run: int, material: int, number: int, elsewhere: Collection[Cell] | None) -> bool:  # noqa: ARG002
+    def practise(self, run: int, material: int, number: int | None, elsewhere: Collection[Cell] | None) -> bool:  # noqa: ARG002
         """Practise that run's agent with that material; return whether it may be evaluated.
 
-        ``number`` is the practice's; other games probe the cells ``elsewhere``, None where there are no such games.
+        ``number`` is the practice's, None for that before the run's next episode; other games probe the cells
+        ``elsewhere``, None where there are no such games.
         """
         return True
 
@@ -121,9 +122,13 @@ class Practice:
     def end(self, runs: Int64s, materials: Int64s, scores: Float64s) -> None:
         """End the episodes of the named runs (k,); materials and scores are of all."""
 
-    def knows_nothing(self, run: int) -> bool:  # noqa: ARG002
-        """Return whether that run would have to know something of its game, and doesn't."""
-        return False
+    def epsilon_in_a_game(self, run: int, epsilon: float, games: int) -> float:  # noqa: ARG002
+        """Return the ε of that run's next episode in a game beside so many others; it is given as by the preset."""
+        return epsilon
+
+    def news(self) -> list[str]:
+        """Return what a user should know and wasn't told yet, a line each."""
+        return []
 
     def probes(self, run: int, material: int) -> frozenset[Cell]:  # noqa: ARG002
         """Return the unknown cells where that run's next episode should place a block."""

@@ -181,8 +181,8 @@ def practice_of(
     if imagination is None:
         return Practice(agent, preset)
     if background:
-        return LearntGameBesideIt(agent, preset, imagination, background)
-    return LearntGame(agent, preset, imagination)
+        return LearntGameBesideIt(agent, preset, imagination, scenarios, background)
+    return LearntGame(agent, preset, imagination, scenarios)
 
 
 def _copied(arrays: Mapping[str, NDArray[Any]]) -> Arrays:

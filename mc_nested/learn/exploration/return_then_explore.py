@@ -19,12 +19,14 @@ from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.random import Generator
 from numpy.typing import NDArray
 
 from mc_nested.arena.env import BLOCKS_LEFT, X, Y
 from mc_nested.arena.scenario import DEFAULT_SIZE, Scenario
 from mc_nested.arrays import Arrays, Float64s, Int64s, named_for, part_of
 from mc_nested.learn.agents import Agent
+from mc_nested.learn.dqn.engine import Batch
 from mc_nested.learn.dqn.replay import Transitions
 from mc_nested.learn.dqn.self_imitation import BestEpisodes
 from mc_nested.learn.dqn.states import numbered
@@ -34,6 +36,9 @@ from mc_nested.learn.preset import ExcursionRule, Preset
 
 PLAN_NUMBERS, STEP_NUMBERS = 3, 3
 """Random numbers in [0, 1) needed to plan an excursion, and for each of its steps."""
+
+MOST_LESSONS, LOOK_EVERY = 5000, 50
+"""Updates by which networks learn the best episode, at most; and from one look at what they do to the next."""
 
 UNKNOWN, WASTED, ON_DESIGN, NO_BLOCK = 0, 1, 2, 3
 """What an action did when it was last tried in a cell."""
@@ -254,6 +259,28 @@ class Excursions(Practice):
                 for row in last:
                     self._low_level.best.forget(row)
                 self._imitate(self._low_level.best, run)
+
+    def teach_best(self, run: int, material: int, random: Generator) -> bool:
+        """Let the networks of a run without parts do what its best episode did, with that material in hand.
+
+        Return whether they do it now and didn't before.
+        """
+        walk, every_material = self._explorers[run].best, int(self._space.strides[2])
+        rows = self._agent.low_level_rows(np.array([run]), np.full(run + 1, material))
+        engine, batch = self._low_level.engine, self._low_level.engine.rule.batch
+        states = np.array([step.state - step.state % every_material for step in walk], dtype=np.int64)
+        states += material * (every_material > 1)
+        actions = np.array([step.action for step in walk], dtype=np.int64)
+        for update in range(MOST_LESSONS if walk else 0):
+            values = engine.q_values(states, rows.repeat(len(walk))) if update % LOOK_EVERY == 0 else None
+            if values is not None and (values.argmax(axis=1) == actions).all():
+                return update > 0
+            at, tried = np.divmod(random.integers(0, len(walk) * self._space.actions, batch), self._space.actions)
+            rewards, none = (tried == actions[at]).astype(np.float32), np.zeros((1, batch), np.float32)
+            both = np.stack((states[at], states[at]))[:, None]
+            lesson = Batch(both, tried[None], rewards[None], none, none.astype(np.bool_), np.ones_like(none))
+            engine.update(rows, lesson)
+        return False
 
     def state(self) -> Arrays:
         """Return everything that later steps depend on, by name."""

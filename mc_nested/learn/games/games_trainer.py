@@ -91,10 +91,8 @@ class GamesTrainer(Training):
         elsewhere = self._out.probes if len(self._out) else None
         is_ready = self.practice.practise(0, material, self._planned, elsewhere)
         greedy = (is_ready and is_due) or is_begun_from or self._is_last
-        if not greedy and self.practice.knows_nothing(0) and len(self._out):
-            # Another game already plays what an untaught network says, which may stand still. By chance
-            # other cells are tried in each game, and an episode ends sooner.
-            nested = 1.0
+        if not greedy:
+            nested = self.practice.epsilon_in_a_game(0, nested, len(self._out))
         row = int(self.agent.low_level_rows(RUN, np.array([material]))[0])
         plan = EpisodePlan(
             number=self._planned,
@@ -190,7 +188,7 @@ class GamesTrainer(Training):
         terminated = np.zeros(played.steps, dtype=np.bool_)
         terminated[-1] = played.terminated
         learning, running = RUN[:0] if out.plan.greedy else RUN, np.ones(1, dtype=np.bool_)
-        self.practice.begin(RUN, draws[0, :, :0])
+        self.practice.begin(RUN, np.zeros((1, self.practice.numbers)))
         for at in range(played.steps):
             here, after = slice(at, at + 1), slice(at + 1, at + 2)
             done = played.actions[here], played.rewards[here], seen[after], materials[after], terminated[here]

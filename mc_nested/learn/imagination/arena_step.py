@@ -47,7 +47,7 @@ def imagined_arena(rules: LearntRules, beliefs: Beliefs) -> ImaginedArena:
         moves=rules.moves @ strides,
         places=rules.places,
         lands=int(np.array(rules.lands) @ strides),
-        empty=np.pad(np.zeros((size, size), dtype=np.bool_), border, constant_values=True).ravel(),
+        empty=np.pad(rules.walls, border, constant_values=True).ravel(),
         pay=np.pad(beliefs.pay, border).ravel(),
         side=side,
         border=border,

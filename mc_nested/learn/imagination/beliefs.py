@@ -15,9 +15,7 @@ import numpy as np
 from mc_nested.arena.action import Cell
 from mc_nested.arrays import Bools, Float32s, Int8s, Int64s
 from mc_nested.learn.imagination.experience import UNTOLD
-
-FADES = 0.7
-"""The weight of a try once there is a later one of the same cell: above a half, two tries outvote an odd one."""
+from mc_nested.learn.imagination.learnt_rules import FADES
 
 FAR_FROM_PAYING, KNOWN_TO_PAY = 0.2, 0.05
 """While exploring, what is imagined for an unknown cell that isn't beside a paying one, and for one known to pay; for
@@ -55,11 +53,13 @@ def believe(
     optimism: bool = True,
     neighbours: bool = True,
     elsewhere: Collection[Cell] = (),
+    walls: Bools | None = None,
 ) -> Beliefs:
     """Return what transitions (steps, 9) (experience.py) say of every cell, if blocks land at ``lands`` from the agent.
 
     Without ``optimism`` what is unknown isn't taken to pay; without ``neighbours`` all that is unknown is alike.
     Cells that are probed ``elsewhere``, in other games, are taken to pay nothing, unless no other unknown cell is left.
+    ``walls`` (size, size) pay nothing.
     """
     evidence = np.zeros((2, size, size))
     told = (steps[:, 2] > steps[:, 6]) & (steps[:, 7] != UNTOLD)
@@ -69,15 +69,16 @@ def believe(
             evidence[:, cell[0], cell[1]] *= FADES
             evidence[paid, cell[0], cell[1]] += 1.0
     tried = evidence.any(axis=0)
-    unknown = ~tried & _reached(lands, size)
-    free = unknown.copy()
-    free[tuple(np.array(list(elsewhere), dtype=np.int64).reshape(-1, 2).T)] = False
-    if free.any():
-        unknown = free
-    pays = tried & (evidence[1] > evidence[0])
+    free = np.ones((size, size), dtype=np.bool_) if walls is None else ~walls
+    unknown = ~tried & _reached(lands, size) & free
+    left = unknown.copy()
+    left[tuple(np.array(list(elsewhere), dtype=np.int64).reshape(-1, 2).T)] = False
+    if left.any():
+        unknown = left
+    pays = free & (evidence[1] > evidence[0])
     explores = int(pays.sum()) < blocks
     believed = _beside(pays) & unknown & explores & neighbours
-    cells = np.where(pays, Belief.PAYS, np.where(tried, Belief.PAYS_NOT, Belief.UNKNOWN)).astype(np.int8)
+    cells = np.where(pays, Belief.PAYS, np.where(tried | ~free, Belief.PAYS_NOT, Belief.UNKNOWN)).astype(np.int8)
     cells[believed] = Belief.BELIEVED
     pay = pays.astype(np.float32)
     if explores and optimism:

@@ -35,14 +35,14 @@ class RealStep(NamedTuple):
 class Experience:
     """The last episodes of one run, the one that runs included.
 
-    What an action led to is in ``steps``; what an episode of a material earned beside its blocks is in ``extras``.
+    What an action led to is in ``steps``; what an episode of a material brought is in ``extras``.
     """
 
     def __init__(self) -> None:
         self.episodes = 0
         self._steps: list[RealStep] = []
         self._first_of_episode: list[int] = []
-        self._extras: list[tuple[int, float]] = []
+        self._extras: list[tuple[int, float, int]] = []
 
     @property
     def steps(self) -> Int64s:
@@ -55,9 +55,19 @@ class Experience:
         return np.array(self._first_of_episode, dtype=np.int64)
 
     @property
+    def length(self) -> tuple[int, int]:
+        """How many episodes have begun, and how many steps are remembered: both change with what is in ``steps``."""
+        return self.episodes, len(self._steps)
+
+    @property
+    def is_stuck(self) -> bool:
+        """Whether whole episodes are remembered, and no block was used in any."""
+        return bool(self._extras) and all(step.blocks == step.next_blocks for step in self._steps)
+
+    @property
     def extras(self) -> Float64s:
-        """For each finished episode its material and what it scored beyond the sum of r_N, (episodes, 2)."""
-        return np.array(self._extras, dtype=np.float64).reshape(len(self._extras), 2)
+        """For each finished episode its material, what it scored beyond the sum of r_N, and that sum, (episodes, 3)."""
+        return np.array(self._extras, dtype=np.float64).reshape(len(self._extras), 3)
 
     def begin(self) -> None:
         """Begin an episode; the oldest is forgotten where there are too many."""
@@ -84,7 +94,7 @@ class Experience:
     def end(self, material: int, score: float) -> None:
         """End the episode, with its material and its score r_M."""
         earned = sum(step.paid for step in self._steps[self._first_of_episode[-1] :])
-        self._extras.append((material, score - earned))
+        self._extras.append((material, score - earned, earned))
 
     def begin_from(self, earlier: Mapping[str, NDArray[Any]], *, pays: bool, materials: bool) -> None:
         """Take over what another run's state holds; KeyError or ValueError if its shape differs.
@@ -113,4 +123,4 @@ class Experience:
         self.episodes = int(state["episodes"].item())  # a checkpoint gives it a dimension
         self._steps = [RealStep(*row) for row in state["steps"].tolist()]
         self._first_of_episode = state["first_of_episode"].tolist()
-        self._extras = [(int(material), extra) for material, extra in state["extras"].tolist()]
+        self._extras = [(int(material), extra, int(earned)) for material, extra, earned in state["extras"].tolist()]

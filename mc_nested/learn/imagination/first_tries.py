@@ -21,12 +21,14 @@ CLAIMED = 2
 class FirstTries:
     """What one run has tried of its actions, (actions,) each. Its arrays change with what is observed.
 
-    ``explores``: paying cells are still to be found. ``falls_short``: its last practice did. ``untried`` actions have
-    never moved, the moves of ``unclear`` ones may be slips, ``tries`` counts.
+    ``explores``: paying cells are still to be found. ``falls_short``: its last practice did. ``is_stuck``: in whole
+    episodes no block was used. ``untried`` actions have never moved, the moves of ``unclear`` ones may be slips,
+    ``tries`` counts.
     """
 
     explores: bool
     falls_short: bool
+    is_stuck: bool
     untried: Bools
     unclear: Bools
     tries: Int64s
@@ -41,6 +43,9 @@ class FirstTries:
         untried = self._open()
         if not untried.any() or not (self.explores or self.falls_short):
             return action
+        if self.is_stuck:  # each cell is left by its actions in turn, which comes to every cell that can be reached
+            here = list(tried_here)
+            return min(range(len(self.tries)), key=lambda each: (here.count(each), self.tries[each]))
         untried[list(tried_here)] = False
         tries = np.where(untried, self.tries, np.iinfo(np.int64).max)
         return int(tries.argmin()) if tries.min() <= FIRST_TRIES * self.tries.sum() else action

@@ -10,6 +10,7 @@ from collections.abc import Collection, Mapping, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.random import Generator
 from numpy.typing import NDArray
 
 from mc_nested.arena.action import Cell
@@ -22,6 +23,7 @@ from mc_nested.learn.imagination.first_tries import FirstTries
 from mc_nested.learn.imagination.known_arena import KnownArena, known_arena
 from mc_nested.learn.imagination.learnt_rules import LearntRules, learn_rules, unclear_moves
 from mc_nested.learn.imagination.material_choice import learn_choice, scores_of_materials
+from mc_nested.learn.imagination.noticing import Assumption, broken_assumption
 from mc_nested.learn.imagination.practice_session import (
     Goal,
     NetworkPractice,
@@ -83,6 +85,7 @@ class Imagination:
         self._rule, self._seed, self._numbers = rule, seed, runs
         self._practice = NetworkPractice(low_level, preset, rule)
         self._experience = [Experience() for _ in runs]
+        self._rules: dict[int, tuple[tuple[int, int], LearntRules]] = {}
         self._rows_a_run = self._space.rows // len(runs)
         self._explores, self._falls_short = np.ones(len(runs), dtype=np.bool_), np.zeros(len(runs), dtype=np.bool_)
         self._untried = np.ones((len(runs), self._space.actions), dtype=np.bool_)
@@ -93,7 +96,17 @@ class Imagination:
         """Return what that run has learnt of moving and placing."""
         seen = self._experience[run]
         actions, size = self._space.actions, self._surroundings[run].size
-        return learn_rules(seen.steps, seen.first_of_episode, actions, size)
+        if run not in self._rules or self._rules[run][0] != seen.length:
+            self._rules[run] = seen.length, learn_rules(seen.steps, seen.first_of_episode, actions, size)
+        return self._rules[run][1]
+
+    def broken_assumption(self, run: int) -> Assumption:
+        """Return what doesn't hold of that run's learnt game, by its last episodes, which have ended."""
+        return broken_assumption(self.rules(run).astray, self._experience[run].first_of_episode)
+
+    def stream(self, run: int, number: int | None = None) -> Generator:
+        """Return the random numbers of that run's practice of that number; unless given, of that before its episode."""
+        return practice_stream(self._seed, self._numbers[run], self.episodes(run) if number is None else number)
 
     def beliefs(self, run: int, rules: LearntRules | None = None, elsewhere: Collection[Cell] = ()) -> Beliefs:
         """Return what that run thinks of every cell, by its rules.
@@ -101,8 +114,9 @@ class Imagination:
         What is probed ``elsewhere`` is taken to pay nothing.
         """
         here, rule, steps = self._surroundings[run], self._rule, self._experience[run].steps
-        lands = (rules or self.rules(run)).lands
-        return believe(steps, lands, here.size, here.start[2], rule.optimism, rule.neighbours, elsewhere)
+        rules = rules or self.rules(run)
+        lands, walls = rules.lands, rules.walls
+        return believe(steps, lands, here.size, here.start[2], rule.optimism, rule.neighbours, elsewhere, walls)
 
     def learn_choice(self, run: int, elsewhere: Collection[int] = ()) -> None:
         """Let the main agent of that run learn what each material would bring in its learnt game.
@@ -163,7 +177,7 @@ class Imagination:
             Goal((x, y), blocks, here.step_limit, aim, most_updates, most_table_steps, anew),
             self._appended(material),
             self._real_transitions(run, material, landed_cells(seen.steps, rules.lands, arena)),
-            practice_stream(self._seed, self._numbers[run], seen.episodes if number is None else number),
+            self.stream(run, number),
         )
 
     def begin(self, runs: Int64s) -> None:
@@ -203,6 +217,7 @@ class Imagination:
         return FirstTries(
             bool(self._explores[run]),
             bool(self._falls_short[run]),
+            self._experience[run].is_stuck,
             self._untried[run],
             self._unclear[run],
             self._tries[run],
@@ -227,9 +242,9 @@ class Imagination:
     def known_arena(self, run: int) -> KnownArena:
         """Return what that run knows of its arena now, and where the blocks of its real episodes went."""
         steps, here = self._experience[run].steps, self._surroundings[run]
-        lands = self.rules(run).lands
-        beliefs = believe(steps, lands, here.size, here.start[2])
-        return known_arena(self._experience[run], lands, beliefs)
+        rules = self.rules(run)
+        beliefs = believe(steps, rules.lands, here.size, here.start[2], walls=rules.walls)
+        return known_arena(self._experience[run], rules.lands, beliefs)
 
     def episodes(self, run: int) -> int:
         """Return how many real episodes that run has begun."""
@@ -240,6 +255,7 @@ class Imagination:
 
         Without ``pays`` the cells' pay isn't taken over, without ``materials`` not what each material brought.
         """
+        self._rules = {}
         for run, seen in enumerate(self._experience):
             seen.begin_from(part_of(earlier, "seen"), pays=pays, materials=materials)
             self._untried[run], self._tries[run] = earlier["untried"], earlier["tries"]
@@ -261,6 +277,7 @@ class Imagination:
         self._explores[:], self._falls_short[:] = state["explores"], state["falls_short"]
         self._untried[:], self._unclear[:] = state["untried"], state["unclear"]
         self._tries[:] = state["tries"]
+        self._rules = {}
         for run, seen in enumerate(self._experience):
             seen.load(part_of(state, str(run)))
 

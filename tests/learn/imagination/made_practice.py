@@ -21,7 +21,15 @@ def arena_of(scenario: Scenario = BENT) -> ImaginedArena:
     pay = np.zeros((scenario.size, scenario.size), np.float32)
     for cell in scenario.design:
         pay[cell] = 1.0
-    rules = LearntRules(np.array(TRUE_MOVES), np.ones(len(Action), np.bool_), np.array(TRUE_PLACES), (0, 1))
+    walls = np.zeros((scenario.size, scenario.size), np.bool_)
+    rules = LearntRules(
+        np.array(TRUE_MOVES),
+        np.ones(len(Action), np.bool_),
+        np.array(TRUE_PLACES),
+        (0, 1),
+        walls,
+        np.zeros(0, np.int64),
+    )
     cells = np.where(pay > 0, Belief.PAYS, Belief.PAYS_NOT).astype(np.int8)
     return imagined_arena(rules, Beliefs(cells, pay, False, float(scenario.blocks)))
 

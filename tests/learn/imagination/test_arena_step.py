@@ -35,7 +35,14 @@ def taught_arena(
 ) -> ImaginedArena:
     pay = np.zeros((SIZE, SIZE), np.float32)
     pay[paying] = 1.0
-    rules = LearntRules(np.array(moves), np.ones(len(moves), np.bool_), np.array(places), lands)
+    rules = LearntRules(
+        np.array(moves),
+        np.ones(len(moves), np.bool_),
+        np.array(places),
+        lands,
+        np.zeros((SIZE, SIZE), np.bool_),
+        np.zeros(0, np.int64),
+    )
     return imagined_arena(rules, Beliefs(np.full((SIZE, SIZE), Belief.UNKNOWN, np.int8), pay, True, 1.0))
 
 
@@ -114,13 +121,20 @@ def test_the_imagined_arena_with_the_true_rules_steps_as_the_rules_do(actions: l
         assert (cell_at(position, arena), None if block == NOWHERE else cell_at(block, arena)) == (cell, lands)
 
 
-TRUE_RULES = LearntRules(np.array(TRUE_MOVES), np.ones(8, np.bool_), np.array(TRUE_PLACES), (0, 1))
+TRUE_RULES = LearntRules(
+    np.array(TRUE_MOVES),
+    np.ones(8, np.bool_),
+    np.array(TRUE_PLACES),
+    (0, 1),
+    np.zeros((5, 5), np.bool_),
+    np.zeros(0, np.int64),
+)
 ARENA = imagined_arena(TRUE_RULES, believe(np.zeros((0, 9), np.int64), (0, 1), BENT.size, BENT.blocks))
 
 
 def tries_of(untried: int | None = None) -> FirstTries:
     shown = np.arange(8) == untried
-    return FirstTries(True, False, shown, np.zeros(8, np.bool_), np.zeros(8, np.int64))
+    return FirstTries(True, False, False, shown, np.zeros(8, np.bool_), np.zeros(8, np.int64))
 
 
 @given(st.lists(st.sampled_from(list(Action)), min_size=BENT.step_limit, max_size=BENT.step_limit))

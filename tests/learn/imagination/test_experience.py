@@ -18,7 +18,7 @@ def episode_of(seen: Experience, steps: int, material: int = 0, score: float = 0
 def test_a_new_experience_is_empty() -> None:
     seen = Experience()
     assert (seen.episodes, seen.steps.shape, seen.first_of_episode.shape) == (0, (0, 9), (0,))
-    assert seen.extras.shape == (0, 2)
+    assert seen.extras.shape == (0, 3)
 
 
 def test_steps_of_episodes_are_stored_one_after_the_other() -> None:
@@ -35,7 +35,7 @@ def test_a_materials_extra_is_the_score_beyond_the_blocks_paid_in_its_episode() 
     seen = Experience()
     episode_of(seen, 2, material=1, score=12.0)  # two blocks that paid, and p = 10
     episode_of(seen, 3, material=0, score=-2.0)  # three, and p = -5
-    assert seen.extras.tolist() == [[1.0, 10.0], [0.0, -5.0]]
+    assert seen.extras.tolist() == [[1.0, 10.0, 2.0], [0.0, -5.0, 3.0]]
 
 
 def test_old_episodes_are_forgotten() -> None:

@@ -11,7 +11,7 @@ ACTIONS = 8
 
 def tries_of(untried: set[int]) -> FirstTries:
     shown = np.array([action in untried for action in range(ACTIONS)])
-    return FirstTries(True, False, shown, np.zeros(ACTIONS, np.bool_), np.zeros(ACTIONS, np.int64))
+    return FirstTries(True, False, False, shown, np.zeros(ACTIONS, np.bool_), np.zeros(ACTIONS, np.int64))
 
 
 def first_actions(tries: FirstTries, steps: int) -> list[int]:

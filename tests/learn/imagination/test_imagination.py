@@ -223,9 +223,10 @@ def test_arenas_of_different_sizes_are_learnt_side_by_side() -> None:
 
 
 def test_an_action_stopped_in_one_cell_is_tried_again_in_another_cell() -> None:
-    for actions, chosen in (([Action.B, Action.B], Action.R), ([Action.B, Action.B, Action.R], Action.B)):
+    to_the_edge = [Action.FD, Action.B, Action.B, Action.B]
+    for actions, chosen in ((to_the_edge, Action.R), ([*to_the_edge, Action.R], Action.B)):
         _, imagination = imagination_of()
-        play(imagination, actions)  # to (2, 0), at the edge, where B is stopped; then on to (3, 0)
+        play(imagination, actions)  # to (2, 0), at the edge, where B is stopped; on to (3, 0)
         imagination._untried[0], imagination._tries[0, Action.F] = np.arange(8) == Action.B, 100
         assert imagination.act(np.array([0]), np.array([int(Action.R)])).tolist() == [chosen]
 

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from mc_nested.arena.action import Action
-from mc_nested.learn.imagination.experience import Experience
+from mc_nested.arena.action import Action, Cell
+from mc_nested.learn.imagination.experience import Experience, RealStep
 from mc_nested.learn.imagination.learnt_rules import LearntRules, learn_rules, unclear_moves
 from sim.grid import GridGame
 from tests.learn.imagination.made_games import (
@@ -17,6 +17,7 @@ from tests.learn.imagination.made_games import (
     play,
     seen_at_random,
 )
+from tests.learn.made_worlds import World, WorldGame
 
 SWAPPED = [TRUE_MOVES[at] for at in (1, 0, 2, 3, 4, 5, 6, 7)]
 
@@ -105,7 +106,8 @@ def test_blocks_of_one_episode_do_not_count_in_the_next() -> None:
         play(game, BENT, [Action.F, Action.F], seen)
     assert learnt(seen).lands == (0, 1)
     as_one_episode = learn_rules(seen.steps, np.array([0]), len(Action), BENT.size)
-    assert as_one_episode.lands != (0, 1), "each walk through the old block would speak against it"
+    assert not learnt(seen).astray.any()
+    assert as_one_episode.astray.any(), "each walk through the old block would speak against it"
 
 
 def moved(*steps: tuple[Action, int, int]) -> np.ndarray[tuple[int, int], np.dtype[np.int64]]:
@@ -126,3 +128,62 @@ def test_a_move_needs_a_lead_of_two_to_be_clear_when_actions_slip() -> None:
     once, twice = (Action.B, -1, 0), ((Action.R, 1, 0), (Action.R, 1, 0))
     assert unclear(*slipped, once, *twice) == [each for each in Action if each not in (Action.L, Action.R)]
     assert Action.L in unclear(*slipped, (Action.L, 0, 1))
+
+
+def walled(*walls: Cell) -> WorldGame:
+    return WorldGame(World(walls=frozenset(walls)), BENT)
+
+
+def walls_of(seen: Experience) -> set[Cell]:
+    return {(int(x), int(y)) for x, y in np.argwhere(learnt(seen).walls)}
+
+
+def test_a_cell_that_stops_a_move_though_nothing_was_built_there_is_a_wall() -> None:
+    seen = Experience()
+    play(walled((2, 3)), BENT, [Action.F, Action.F], seen)
+    assert walls_of(seen) == {(2, 3)}
+
+
+def test_an_edge_and_a_block_of_ones_own_are_no_walls() -> None:
+    seen = Experience()
+    play(GridGame(BENT), BENT, [Action.B, Action.B, Action.FD, Action.F, Action.F], seen)
+    assert walls_of(seen) == set()
+
+
+def test_a_cell_where_a_block_does_not_land_is_a_wall() -> None:
+    # RD is known to place a block; ahead of (3, 2), at (3, 3), it doesn't.
+    seen, game = Experience(), walled((3, 3))
+    for actions in ([Action.FD, Action.FD], [Action.RD], [Action.RD], [Action.F, Action.RD]):
+        play(game, BENT, actions, seen)
+    assert walls_of(seen) == {(3, 3)}
+    assert learnt(seen).places[Action.RD]
+
+
+def test_a_wall_that_was_entered_later_is_free() -> None:
+    seen = Experience()
+    play(walled((2, 3)), BENT, [Action.F, Action.F], seen)
+    play(GridGame(BENT), BENT, [Action.F, Action.F], seen)
+    assert walls_of(seen) == set()
+    play(walled((2, 3)), BENT, [Action.F, Action.F], seen)
+    assert walls_of(seen) == {(2, 3)}, "and a wall again, once it stops again"
+
+
+@pytest.mark.parametrize(("stops", "walls"), [(1, 0), (2, 1)])
+def test_where_actions_slip_one_stop_is_a_slip_and_two_are_a_wall(stops: int, walls: int) -> None:
+    seen = Experience()
+    for _ in range(2):
+        play(GridGame(BENT), BENT, [Action.R, Action.F], seen)
+    seen.begin()
+    seen.add(RealStep(2, 1, 3, Action.R, 2, 2, 3, 0, 0))  # R does what F does
+    for _ in range(stops):
+        play(walled((4, 1)), BENT, [Action.R, Action.R], seen)
+    assert len(walls_of(seen)) == walls
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_walls_do_not_change_where_blocks_are_thought_to_land(seed: int) -> None:
+    walls = {(1, 3), (3, 3), (2, 4)}
+    seen = seen_at_random(walled(*walls), BENT, 20, seed)
+    assert_rules(learnt(seen), TRUE_MOVES, TRUE_PLACES, (0, 1))
+    assert walls_of(seen) <= walls
+    assert not learnt(seen).astray.any(), "walls explain it all"

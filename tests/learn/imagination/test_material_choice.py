@@ -12,8 +12,9 @@ from tests.learn.imagination.made_games import BENT, SMALL
 START = np.array(BENT.start_state)
 
 
-def brought(*extras: tuple[int, float]) -> Float64s:
-    return np.array(extras, dtype=np.float64).reshape(len(extras), 2)
+def brought(*extras: tuple[int, float], paid: int = 1) -> Float64s:
+    """Return what materials brought, in episodes in which so many blocks were paid."""
+    return np.array([(*each, paid) for each in extras], dtype=np.float64).reshape(len(extras), 3)
 
 
 def main_of(runs: int) -> Learner:
@@ -40,6 +41,20 @@ def test_a_materials_score_is_the_mean_of_its_last_three_episodes() -> None:
     assert LAST == 3
     extras = brought((1, 90.0), (1, 1.0), (0, -5.0), (1, 2.0), (1, 6.0))
     assert scores_of_materials(extras, 2, 3, 0.0).tolist() == [-5.0, 3.0]
+
+
+def test_a_material_is_tried_again_once_a_whole_design_was_built_twice() -> None:
+    short, whole = brought((0, 2.0), (1, 10.0)), brought((1, 10.0), paid=3)
+    assert scores_of_materials(np.vstack((short, whole)), 2, 3, 3.0).tolist() == [5.0, 13.0], "once may be by chance"
+    twice = np.vstack((short, whole, whole))
+    assert scores_of_materials(twice, 2, 3, 3.0).tolist() == [16.0, 13.0]
+    missed = np.vstack((twice, brought((0, 4.0), paid=2)))
+    assert scores_of_materials(missed, 2, 3, 3.0).tolist() == [7.0, 13.0], "once is enough, whatever it built"
+
+
+def test_of_a_material_the_episodes_count_in_which_all_blocks_were_paid() -> None:
+    whole, short = brought((1, 10.0), (1, 10.0), (0, 6.0), paid=3), brought((0, 2.0), (0, 2.0))
+    assert scores_of_materials(np.vstack((whole, short)), 2, 3, 3.0).tolist() == [9.0, 13.0]
 
 
 @pytest.mark.parametrize("scores", [(-2.0, 13.0), (13.0, -2.0), (5.4, 5.4), (0.0, 0.5)])
