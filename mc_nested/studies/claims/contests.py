@@ -38,8 +38,6 @@ Curves = Mapping[tuple[str, str], Curve]
 Pair = tuple[Float64s, Float64s]
 """A measure of two agents' trials, (trials,) each."""
 
-ONE_TRIAL = "a single trial can't be tested"
-
 Contest = Callable[[Float64s], Tails]
 """A test of the differences within pairs, (pairs,)."""
 
@@ -83,7 +81,7 @@ def compared(
     difference = means[0] - means[1]
     figures = (*zip(agents, means, strict=True), ("difference", difference))
     if len(differences) < 2:
-        return Evidence(what, figures, missing=ONE_TRIAL)
+        return Evidence(what, figures, missing="a single trial can't be tested")
     return Evidence(
         what,
         figures,
