@@ -1,7 +1,7 @@
 """The practice of a preset with [imagination]: in a game that is learnt from what was played (imagination/).
 
-Where that game turns out not to hold, a run returns and explores instead (exploration/), and its networks learn what
-the best episode did.
+Where that game turns out not to hold, a run returns and explores in every other episode (exploration/), before which
+its networks learn what the best one did. In the others it goes on: what is wrong somewhere may still be right enough.
 """
 
 from collections.abc import Callable, Collection, Mapping, Sequence
@@ -62,7 +62,7 @@ class LearntGame(Practice):
         return np.array(practised, dtype=np.bool_)
 
     def practise(self, run: int, material: int, number: int | None, elsewhere: Collection[Cell] | None) -> bool:
-        if self._broken[run]:
+        if self._broken[run] > 0:
             return self._excursions.teach_best(run, material, self._imagination.stream(run))
         return self._imagination.practise(run, material, number, elsewhere)
 
@@ -88,16 +88,15 @@ class LearntGame(Practice):
     def end(self, runs: Int64s, materials: Int64s, scores: Float64s) -> None:
         self._imagination.end(runs, materials, scores)
         self._excursions.end(runs, materials, scores)
+        self._broken[runs] *= -1  # the learnt game has its turn, or the excursions
         for run in runs[self._broken[runs] == 0].tolist():
             self._broken[run] = broken = self._imagination.broken_assumption(run)
             if broken:
-                of_run = f"trial {run}: " if len(self._broken) > 1 else ""
-                self._news.append(
-                    f"{of_run}the learnt game doesn't hold: {IN_WORDS[broken]}; it explores by excursions now"
-                )
+                what = f"the learnt game doesn't hold: {IN_WORDS[broken]}; every other episode is an excursion now"
+                self._news.append(f"trial {run}: {what}" if len(self._broken) > 1 else what)
 
     def epsilon_in_a_game(self, run: int, epsilon: float, games: int) -> float:
-        if self._broken[run]:
+        if self._broken[run] > 0:
             return EPSILON_INSTEAD
         # Another game already plays what an untaught network says, which may stand still. By chance other cells are
         # tried in each game, and an episode ends sooner.
@@ -108,10 +107,10 @@ class LearntGame(Practice):
         return told
 
     def probes(self, run: int, material: int) -> frozenset[Cell]:
-        return frozenset() if self._broken[run] else self._imagination.probes(run, material)
+        return frozenset() if self._broken[run] > 0 else self._imagination.probes(run, material)
 
     def first_tries(self, run: int, games: int) -> FirstTries | None:
-        return None if self._broken[run] else self._imagination.first_tries(run).beside(games)
+        return None if self._broken[run] > 0 else self._imagination.first_tries(run).beside(games)
 
     def state(self) -> Arrays:
         excursions = named_for("excursions", self._excursions.state())
@@ -150,7 +149,7 @@ class LearntGameBesideIt(LearntGame):
         super().before_choice(runs, elsewhere)
 
     def before_episode(self, runs: Int64s, materials: Int64s, reset: Callable[[], None]) -> Bools:
-        broken, own = runs[self._broken[runs] > 0].tolist(), runs[self._broken[runs] == 0].tolist()
+        broken, own = runs[self._broken[runs] > 0].tolist(), runs[self._broken[runs] <= 0].tolist()
         practised = {run: self.practise(run, int(materials[run]), None, None) for run in broken}
         sessions = {run: self._imagination.session(run, int(materials[run])) for run in own}
         self._background.during_reset(sessions, reset)

@@ -78,7 +78,7 @@ def claim_section(judged: JudgedClaim) -> str:
         "p",
         "p of the opposite",
         "after Holm",
-        "p of less than a block",
+        "p of less than a block, after Holm",
         "verdict",
     )
     return (

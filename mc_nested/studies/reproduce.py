@@ -104,7 +104,8 @@ def found_of(judged: JudgedClaim) -> dict[str, str]:
 
 
 EXPLAINED = """\
-Final: the score of the policy that a trial keeps. Last ten: the mean of a trial's last ten evaluations. Early: the mean
+Final: the score of the policy that a trial keeps. Last ten: the mean of a trial's last ten
+evaluations, or of those in the last third of its training where these are fewer. Early: the mean
 over the first {early:,} episodes. Spread: a trial's standard deviation over the evaluations of the last third. All are
 means over the trials. At the optimum: trials whose final score is. Held: how often such an interval holds the mean, in
 experiments of as many trials drawn from these."""

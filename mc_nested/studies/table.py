@@ -50,7 +50,7 @@ def mean(trials: Float64s) -> str:
 def interval(ends: Interval | None, held: float | None = None) -> str:
     """Write an interval as its two ends, and how often such a one holds the mean, if that is known."""
     written = f"{two(ends.low)} to {two(ends.high)}" if ends else NONE
-    return f"{written} (held {100 * held:.0f} %)" if ends and held is not None else written
+    return f"{written} (held {100 * held:.0f} %)" if ends and held is not None and ends.low < ends.high else written
 
 
 def interval_of_mean(trials: Float64s, highest: float) -> str:

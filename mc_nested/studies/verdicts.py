@@ -115,7 +115,7 @@ def verdict_of(evidence: Evidence, against: float | None, small: float | None = 
     if evidence.counted:
         return evidence.counted
     if evidence.tails is None or against is None:
-        return Verdict.UNDECIDED
+        return Verdict.NOT_JUDGED
     if evidence.tails.claim < ALPHA:
         return Verdict.SLIGHTLY if small is not None and small < ALPHA else Verdict.HOLDS
     return Verdict.FAILS if against < ALPHA else Verdict.UNDECIDED

@@ -66,7 +66,7 @@ def test_a_finding_shows_figures_interval_and_its_p_values(lines: list[str]) -> 
     assert cells(finding) == [
         "line, early score",
         "nested 12.00, hierarchical 7.00, difference 5.00",
-        "5.00 to 5.00 (held 100 %)",
+        "5.00 to 5.00",  # without width: none of the trials differs
         "0.0010",  # one of the 1,024 choices of the signs
         "1",
         "1",

@@ -34,8 +34,8 @@ def test_a_line_has_one_of_four_verdicts_by_three_p_values_below_five_per_cent(
     assert verdict_of(p_of(own, 0.001, 0.001), against, small) is verdict
 
 
-def test_evidence_without_a_test_is_undecided() -> None:
-    assert verdict_of(Evidence("what"), None) is UNDECIDED
+def test_evidence_without_a_test_is_not_judged() -> None:
+    assert verdict_of(Evidence("what"), None) is NOT_JUDGED
 
 
 @pytest.mark.parametrize("verdict", list(Verdict))
@@ -70,7 +70,7 @@ def test_one_opposite_fails_a_claim_after_correction_for_all_opposites_in_the_cl
     # Three opposites: 0.01 x 3, 0.02 x 2, 0.9.
     found = judged(claim(p_of(1, 0.02), p_of(1, 0.01), Evidence("untested"), p_of(0.5, 0.9)))
     assert [finding.against for finding in found.findings] == pytest.approx([0.04, 0.03, None, 0.9])
-    assert [finding.verdict for finding in found.findings] == [FAILS, FAILS, UNDECIDED, UNDECIDED]
+    assert [finding.verdict for finding in found.findings] == [FAILS, FAILS, NOT_JUDGED, UNDECIDED]
     assert found.verdict is FAILS
 
 

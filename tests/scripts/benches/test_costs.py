@@ -31,7 +31,7 @@ def test_each_agent_trains_once_a_round_and_compiling_stands_by_itself(capsys: p
     words = ["costs", "--trials", "1", "--episodes", "2", "--rounds", "2"]
     assert main(words) == 0
     shown = capsys.readouterr().out
-    for name in ("compiling_s", "seconds", "nested_of_hierarchical", "nested_of_single", "undecided"):
+    for name in ("compiling_s", "seconds", "i1", "i2", "than single", "undecided"):
         assert name in shown
 
 
