@@ -46,6 +46,7 @@ class LearntGame(Practice):
     def __init__(self, agent: Agent, preset: Preset, imagination: Imagination, scenarios: Sequence[Scenario]) -> None:
         super().__init__(agent, preset)
         self._imagination, self._excursions = imagination, Excursions(agent, preset, INSTEAD, scenarios)
+        # What doesn't hold of each run's learnt game; negative while that has its turn all the same.
         self._broken, self._news = np.zeros(len(scenarios), dtype=np.int64), list[str]()
 
     @property

@@ -85,8 +85,6 @@ Not judged: claim (f), which takes longer trainings. Not varied, since no
 preset or scenario says otherwise: r_N and r_M, the order of a move and its block, what stops a walker, the single
 agent's later choices, the optimiser, the linear output, the initial weights, and that truncation bootstraps."""
 
-VERDICTS = (Verdict.HOLDS, Verdict.SLIGHTLY, Verdict.UNDECIDED, Verdict.FAILS)
-
 EACH = "for each choice, agent and scenario"
 
 
@@ -176,9 +174,9 @@ def _claims(choices: Sequence[JudgedChoice]) -> str:
     for judged in choices[0].claims:
         letter = judged.claim.letter
         others = [each.verdicts[letter] for each in choices[1:]]
-        counts = (str(others.count(verdict)) for verdict in VERDICTS)
+        counts = (str(others.count(verdict)) for verdict in Verdict)
         rows.append((f"({letter})", judged.claim.title, judged.verdict.value, *counts))
-    return markdown(("claim", "", "as it is", "otherwise: holds", *(verdict.value for verdict in VERDICTS[1:])), rows)
+    return markdown(("claim", "", "as it is", *(f"otherwise: {verdict.value}" for verdict in Verdict)), rows)
 
 
 def _scores(choices: Sequence[JudgedChoice]) -> str:

@@ -57,7 +57,7 @@ def test_a_verdict_that_differs_from_the_bases_is_bold(choices: list[JudgedChoic
 
 def test_each_claim_counts_its_verdicts_under_the_other_choices(choices: list[JudgedChoice]) -> None:
     line = next(line for line in text_of(choices).splitlines() if line.startswith("| (a2) |"))
-    assert cells(line)[2:] == ["holds", "1", "0", "0", "1"]
+    assert cells(line)[2:] == ["holds", "1", "0", "0", "1", "0"]
 
 
 def test_scores_are_shown_with_the_optimum_of_the_choice(choices: list[JudgedChoice]) -> None:

@@ -1,32 +1,62 @@
-"""The trials of two experiments as they were measured, and new ones drawn from them.
+"""The trials of two experiments as they were measured, and experiments drawn from them.
 
 ``measured_trials.csv`` has the measures of each trial of ``mc-nested reproduce --trials 30`` with seed 0 and with seed
 31337, of claims (a) to (d) and (g): 60 trials of each agent on each design.
 """
 
 import csv
+from collections.abc import Sequence
+from dataclasses import dataclass
 from functools import cache
+from itertools import product
 from pathlib import Path
+from typing import cast
 
 import numpy as np
 
 from mc_nested.arrays import Float64s, Int64s
-from mc_nested.studies.claims.contests import EARLY, FINAL, LAST_TEN, SPREAD
-
-COLUMNS = {EARLY: "early", FINAL: "final", LAST_TEN: "last_ten", SPREAD: "spread"}
-"""The column of each measure."""
+from mc_nested.studies.claims.contests import HIERARCHICAL, LINE, NESTED, SINGLE, UNSOLVED, Curves
 
 SEEDS = (0, 31337)
 
+AGENTS, DESIGNS = (NESTED, HIERARCHICAL, SINGLE), (LINE, *UNSOLVED)
+
+TRIALS = 60
+
+
+@dataclass(frozen=True)
+class MeasuredCurve:
+    """What claims take from a curve, (trials,) each."""
+
+    early: Float64s
+    final: Float64s
+    last_ten: Float64s
+    spread: Float64s
+
+
+MEASURES = tuple(MeasuredCurve.__dataclass_fields__)
+
 
 @cache
-def measured(agent: str, scenario: str, measure: str, seed: int | None = None) -> Float64s:
-    """Return the measure of each trial of that agent there, in their order, (30,) of a seed or (60,) of both."""
+def every_trial() -> Float64s:
+    """Return all measures, (agents, designs, measures, trials), first all trials of the first seed."""
     with (Path(__file__).parent / "measured_trials.csv").open(newline="", encoding="utf-8") as file:
-        rows = [row for row in csv.DictReader(file) if (row["agent"], row["scenario"]) == (agent, scenario)]
-    return np.array([float(row[COLUMNS[measure]]) for row in rows if seed in (None, int(row["seed"]))])
+        rows = list(csv.DictReader(file))
+    found = {key: [row for row in rows if (row["agent"], row["scenario"]) == key] for key in product(AGENTS, DESIGNS)}
+    measures = [[[float(row[of]) for row in own] for of in MEASURES] for own in found.values()]
+    return np.array(measures).reshape(len(AGENTS), len(DESIGNS), len(MEASURES), TRIALS)
 
 
-def drawn(trials: int, random: np.random.Generator) -> Int64s:
-    """Return which trials an experiment of so many has, drawn from all with replacement, (trials,)."""
-    return random.integers(0, len(measured("nested", "line", EARLY)), trials)
+def curves_of(trials: Sequence[int] | Int64s, order: Int64s | None = None) -> Curves:
+    """Return the curves of an experiment of these trials.
+
+    ``order`` (agents, trials) says which agent's trial each agent has: its own, unless given.
+    """
+    drawn = every_trial()[..., trials]
+    if order is not None:
+        drawn = np.take_along_axis(drawn, order[:, None, None, :], axis=0)
+    curves = {
+        (agent, design): MeasuredCurve(*drawn[at, place])
+        for (at, agent), (place, design) in product(enumerate(AGENTS), enumerate(DESIGNS))
+    }
+    return cast("Curves", curves)
