@@ -25,8 +25,10 @@ from tests.cli.terminal import Terminal
 if TYPE_CHECKING:
     from mc_nested.view.terminal_view import TerminalView
 
-LONG = ("train", "--preset", "model-based", "--scenario", "zigzag", "--out", "run")
-SHORT = (*LONG, "--episodes", "3")
+TRAINING = ("train", "--preset", "model-based", "--scenario", "zigzag", "--out", "run")
+LONG = (*TRAINING, "--episodes", "100000")
+"""It goes on until it is stopped; 200 episodes end after seconds."""
+SHORT = (*TRAINING, "--episodes", "3")
 
 Opens = Callable[..., "Terminal"]
 
