@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from mc_nested.arena.action import Action, Cell
 from mc_nested.arena.env import ArenaEnv, highest_observation, rendered, space_up_to
-from mc_nested.arena.game import Outcome, PlayLog, Resumable
+from mc_nested.arena.game import Following, Outcome, PlayLog, Resumable
 from mc_nested.arena.rules import STEP, cells_of, grid_of, landing, moved
 from mc_nested.arena.scenario import Scenario
 from mc_nested.arena.scenario_file import load_scenario
@@ -43,7 +43,12 @@ class GridGame:
         self._placed = set()
         return self._cell
 
-    def act(self, action: Action, material: int | None = None) -> Outcome:  # noqa: ARG002 - and so are these
+    def act(
+        self,
+        action: Action,
+        material: int | None = None,  # noqa: ARG002 - and so are these
+        following: Following | None = None,  # noqa: ARG002 - nothing overlaps here
+    ) -> Outcome:
         self._cell = moved(self._cell, action, self._placed, self._size)
         block = landing(self._cell, action, self._placed, self._size)
         if block is not None:

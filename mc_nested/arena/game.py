@@ -18,6 +18,10 @@ class Outcome:
     placed: Cell | None
 
 
+Following = tuple[Action, int | None]
+"""The action that will come next, and the index of the material to take in hand before it; None for the one there."""
+
+
 class Resumable(Protocol):
     """Something whose episode can be saved half-way and continued later."""
 
@@ -52,8 +56,10 @@ class Game(Protocol):
     def reset(self, material: int) -> Cell:
         """Clear the arena, put the agent on the scenario's start cell with the material in hand; return that cell."""
 
-    def act(self, action: Action, material: int | None = None) -> Outcome:
+    def act(self, action: Action, material: int | None = None, following: Following | None = None) -> Outcome:
         """Do one action, the move first and then the block, and say what happened.
 
-        Before it, take the material of that index in hand; without one, what was in hand stays there.
+        Before it, take the material of that index in hand; without one, what was in hand stays there. ``following`` is
+        what will be asked for next, if this action goes as the rules say: a live game may begin its walk meanwhile.
+        Where it did, ValueError if something else is asked for then; a reset may come at any time.
         """

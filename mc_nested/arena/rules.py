@@ -40,6 +40,12 @@ def front_of(cell: Cell) -> Cell:
     return cell[0], cell[1] + 1
 
 
+def axis_of(action: Action) -> tuple[int, int]:
+    """Return the axis of the action's move, 0 right or 1 forward, and its direction on it."""
+    right, forward = STEP[action]
+    return (0, right) if right else (1, forward)
+
+
 def moved(cell: Cell, action: Action, placed: Collection[Cell], size: int) -> Cell:
     """Return the cell that the action's move leads to: the same cell if a block or the arena's edge stops it."""
     right, forward = STEP[action]

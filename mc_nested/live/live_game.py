@@ -6,7 +6,7 @@ from types import TracebackType
 
 from mc_nested.arena import rules
 from mc_nested.arena.action import Action, Cell
-from mc_nested.arena.game import Outcome
+from mc_nested.arena.game import Following, Outcome
 from mc_nested.arena.scenario import Scenario
 from mc_nested.errors import LiveError, ProfileError, StoppedError
 from mc_nested.live.action_log import ActionLog
@@ -17,6 +17,7 @@ from mc_nested.live.menus.click_points import ClickPoints
 from mc_nested.live.menus.recovery import Recovery
 from mc_nested.live.menus.reset import reset_commands, restore_world, teleport_command
 from mc_nested.live.motion.move_and_place import Body
+from mc_nested.live.motion.overlap_plan import Leg
 from mc_nested.live.profile.tables import Profile, WorldTable
 from mc_nested.live.vision.chat_region import LastFrames
 from mc_nested.live.vision.game_screen import seen_gui_scale
@@ -59,6 +60,7 @@ class LiveGame:
         points: where menus are clicked if their labels aren't found.
         evidence: the folder for the last frames, written when a reset fails for good.
         restore: makes a world's folder the same as its template, for games without commands.
+        overlaps: whether the next action's walk begins before an action is confirmed, where the next one is known.
 
     Raises:
         ProfileError: the profile has no arena, or ``check_fits`` refuses it.
@@ -76,6 +78,7 @@ class LiveGame:
         points: ClickPoints | None = None,
         evidence: Path | None = None,
         restore: Callable[[Path, Path], None] = restore_world,
+        overlaps: bool = True,
     ) -> None:
         check_fits(scenario, profile)
         self._scenario = scenario
@@ -96,6 +99,8 @@ class LiveGame:
         self._others: frozenset[Cell] = frozenset()
         self._material = 0
         self._restore = restore
+        self._overlaps = overlaps
+        self._announced: Following | None = None
 
     def __enter__(self) -> "LiveGame":
         self.connection.__enter__()
@@ -111,7 +116,8 @@ class LiveGame:
 
         If the last action left another screen open, that is left first.
         """
-        self._cell = None
+        self._cell, self._announced = None, None
+        self._controller.release_all()
         self._body.forget()
         self._journal.note("resets", material=material, **self._known())
         for tries_left in reversed(range(RESET_TRIES)):
@@ -163,32 +169,43 @@ class LiveGame:
             "chat": self.connection.chat_lines.state,
         }
 
-    def act(self, action: Action, material: int | None = None) -> Outcome:
+    def act(self, action: Action, material: int | None = None, following: Following | None = None) -> Outcome:
         """Perform an action on the screen. Where the rules void both its move and its block, nothing is pressed.
 
         Before it, the hotbar key of another material is pressed. No screen says what is in the hand: that it was taken
-        is confirmed by the next block, which must be of it.
+        is confirmed by the next block, which must be of it. With ``following`` its key may be down on return; it goes
+        up in time, also if nothing more is asked for.
         """
+        announced, self._announced = self._announced, None
         if self._cell is None:
             raise LiveError("the game must be reset first: the last reset or action failed, or there was none")
         cell, self._cell = self._cell, None
-        taken: dict[str, Fact] = {} if material is None else {"material": material}
-        self._journal.note("acts", action=int(action), cell=cell, **taken)
+        if announced not in (None, (action, material)):
+            self._controller.release_all()
+            raise ValueError(f"{announced} was announced as the action that follows, not {(action, material)}")
+        told: dict[str, Fact] = {} if material is None else {"material": material}
+        if following is not None and self._overlaps:
+            told["following"] = (int(following[0]), following[1])
+        self._journal.note("acts", action=int(action), cell=cell, **told)
         began = self._clock.now()
+        self._controller.is_attended = True
         try:
             if material is not None:
                 self._take_in_hand(material)
-            outcome = self._perform(cell, action)
+            outcome = self._perform(cell, action, following if self._overlaps else None)
         except LiveError as error:
             self.log.failed_actions += 1
             self._journal.note("fails", problem=str(error))
             raise
         finally:
-            self._controller.release_all()
+            self._controller.is_attended = False
+            if not self._body.is_under_way:
+                self._controller.release_all()
         seconds = self._clock.now() - began
         self.log.seconds.append(seconds)
         self._journal.note("done", cell=outcome.cell, placed=outcome.placed, seconds=seconds)
         self._cell = outcome.cell
+        self._announced = following if self._body.is_under_way else None
         if outcome.placed is not None:
             self._placed[outcome.placed] = self._shown_id
         return outcome
@@ -198,17 +215,22 @@ class LiveGame:
         files = self._last_frames.save()
         return type(error)(f"{error}; what was seen last: {files[-1]}") if files else error
 
-    def _perform(self, cell: Cell, action: Action) -> Outcome:
+    def _perform(self, cell: Cell, action: Action, following: Following | None) -> Outcome:
         solid = self._placed.keys() | self._others
         target = rules.moved(cell, action, solid, self._scenario.size)
         landing = rules.landing(target, action, solid, self._scenario.size)
         if target == cell and landing is None:
             return Outcome(self._body.stay_in(cell), None)
-        if landing is not None:
-            return Outcome(target, self._body.build(target, self._placed, self._shown_id))
-        pose = self._body.move_to(target)
-        self._body.check_front(pose, self._placed)
-        return Outcome(pose.cell, None)
+        after = following and self._leg(target, following[0], solid | ({landing} if landing else set()))
+        axis, sign = rules.axis_of(action)
+        leg = Leg(target, axis, sign if target != cell else 0, landing is not None)
+        return Outcome(target, self._body.go_on(leg, after, self._placed, self._shown_id))
+
+    def _leg(self, cell: Cell, action: Action, solid: Collection[Cell]) -> Leg | None:
+        """Return an action that moves the agent as the body does it; None for one that doesn't."""
+        target = rules.moved(cell, action, solid, self._scenario.size)
+        places = rules.landing(target, action, solid, self._scenario.size) is not None
+        return None if target == cell else Leg(target, *rules.axis_of(action), places)
 
     @property
     def _shown_id(self) -> str:
@@ -217,8 +239,7 @@ class LiveGame:
 
     def _take_in_hand(self, material: int) -> None:
         if material != self._material:
-            self._body.check_screen()
-            self._controller.tap_alone(self._profile.keys.hotbar[material])
+            self._body.take(self._profile.keys.hotbar[material])
             self._material = material
 
     def _prepare(self, material: int) -> None:
@@ -226,8 +247,7 @@ class LiveGame:
             self._restore_world(self._profile.world)
         else:
             self._send_reset_commands()
-        self._body.check_screen()
-        self._controller.tap_alone(self._profile.keys.hotbar[material])
+        self._body.take(self._profile.keys.hotbar[material])
         self._body.arrive(self._scenario.start)
         self._body.check_ground_is_named(self._profile.game.version)
 

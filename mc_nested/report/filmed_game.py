@@ -7,7 +7,7 @@ import numpy as np
 
 from mc_nested.arena.action import Action, Cell
 from mc_nested.arena.drawing import Picture
-from mc_nested.arena.game import Game, Outcome, PlayLog
+from mc_nested.arena.game import Following, Game, Outcome, PlayLog
 from mc_nested.arena.scenario import Scenario
 from mc_nested.arena.tally import THE_ARENA, Tally
 from mc_nested.report.arena_picture import ARENA_PX, Moment, Size, beside, box_for, draw_moment
@@ -76,8 +76,8 @@ class FilmedGame:
         self._show(cell)
         return cell
 
-    def act(self, action: Action, material: int | None = None) -> Outcome:
-        outcome = self._game.act(action, material)
+    def act(self, action: Action, material: int | None = None, following: Following | None = None) -> Outcome:
+        outcome = self._game.act(action, material, following)
         self._steps += 1
         if material is not None:
             self._material = material

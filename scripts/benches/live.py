@@ -79,6 +79,8 @@ def play(
     scenario: Scenario,
     latency_ms: tuple[float, float] | None = None,
     version: str = VERSION,
+    *,
+    overlaps: bool = True,
 ) -> PlayCounts:
     """Play ``count`` actions on a new client, with a mishap before a share ``rate`` of them.
 
@@ -103,7 +105,7 @@ def play(
         elif rate:
             client.mishaps.maybe(rate, MISHAP_WITHIN_S)
 
-    counts = play_on(client, game, arena, scenario, steps, rng, before_act)
+    counts = play_on(client, game, arena, scenario, steps, rng, before_act, is_told=overlaps)
     counts.into_screens, counts.too_late = presses.into_screens, presses.too_late
     return counts
 
@@ -116,11 +118,15 @@ def play_on(
     steps: Iterable[object],
     rng: np.random.Generator,
     before_act: Callable[[int], None] = lambda _action: None,
+    *,
+    is_told: bool = False,
 ) -> PlayCounts:
     """Play random actions in that client's game, by its clock, and close it; what is then down is counted, too."""
     began, cpu = client.clock.now(), time.process_time()
     with game:
-        counts = play_in(game, ClientTruth(client, arena), scenario, steps, rng, before_act, client.clock.now)
+        counts = play_in(
+            game, ClientTruth(client, arena), scenario, steps, rng, before_act, client.clock.now, is_told=is_told
+        )
     counts.mishaps = len(client.mishaps.happened)
     counts.left_down, counts.strays = len(client.window.down), len(client.window.strays)
     counts.played_s, counts.cpu_s = client.clock.now() - began, time.process_time() - cpu

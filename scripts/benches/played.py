@@ -10,7 +10,7 @@ import numpy as np
 
 from mc_nested.arena import rules
 from mc_nested.arena.action import Action, Cell
-from mc_nested.arena.game import Game, Outcome, PlayLog
+from mc_nested.arena.game import Following, Game, Outcome, PlayLog
 from mc_nested.arena.scenario import Scenario
 from mc_nested.errors import LiveError
 from mc_nested.live.action_log import percentile
@@ -79,6 +79,10 @@ class WorldTruth:
         """Return the cell that the player stands on."""
         return cell_at(self._arena.position_of(self._feet()))
 
+    def passed(self, cell: Cell) -> bool:
+        """Return whether the player is in that cell, or was in it since the cell that was asked for last."""
+        return self.cell() == cell
+
     def is_built(self, placed: set[Cell]) -> bool:
         """Return whether these cells hold a block, and everything else is as before."""
         cells, built = {self._arena.block_of(cell) for cell in placed}, self._built()
@@ -90,6 +94,19 @@ class ClientTruth(WorldTruth):
 
     def __init__(self, client: VirtualClient, arena: Arena) -> None:
         super().__init__(arena, lambda: client.realm.player.feet, lambda: client.built)
+        self._way = [self.cell()]
+        client.after_tick = self._note
+
+    def passed(self, cell: Cell) -> bool:
+        """Return whether the player is in that cell, or was in it at a tick since the cell that was asked for last."""
+        if cell not in self._way:
+            return False
+        del self._way[: self._way.index(cell)]
+        return True
+
+    def _note(self) -> None:
+        if (cell := self.cell()) != self._way[-1]:
+            self._way.append(cell)
 
 
 class CheckedGame:
@@ -124,14 +141,17 @@ class CheckedGame:
         self.episodes.append([])
         return self.cell
 
-    def act(self, action: Action, material: int | None = None) -> Outcome:
-        """Act in the game, after what happens before that action."""
+    def act(self, action: Action, material: int | None = None, following: Following | None = None) -> Outcome:
+        """Act in the game, after what happens before that action.
+
+        Where another action follows, its walk may have begun: the cell of this one must have been passed.
+        """
         counts, size = self.counts, self.scenario.size
         self.before_act(counts.actions)
         counts.actions += 1
         began = self._now()
         try:
-            outcome = self._game.act(action, material)
+            outcome = self._game.act(action, material, following)
         except LiveError:
             counts.failed_actions += 1
             self.episodes.pop()
@@ -143,31 +163,50 @@ class CheckedGame:
         counts.unnoticed += (outcome.cell, outcome.placed) != (cell, block)
         self.cell = outcome.cell
         self.placed |= {outcome.placed} if outcome.placed else set()
-        self._check()
+        self._check(has_gone_on=following is not None)
         after = self.scenario.blocks - len(self.placed)
         self.episodes[-1].append((*before, left, int(action), *self.cell, after))
         return outcome
 
-    def _check(self) -> None:
-        self.counts.wrong_cells += self._truth.cell() != self.cell
+    def _check(self, *, has_gone_on: bool = False) -> None:
+        was_there = self._truth.passed(self.cell)
+        self.counts.wrong_cells += not was_there or not (has_gone_on or self._truth.cell() == self.cell)
         self.counts.wrong_blocks += not self._truth.is_built(self.placed)
 
 
-def play(game: CheckedGame, steps: Iterable[object], rng: np.random.Generator) -> PlayCounts:
-    """Play as many random actions as there are steps; LiveError where GIVES_UP resets in a row fail."""
-    in_episode = None
+def play(game: CheckedGame, steps: Iterable[object], rng: np.random.Generator, *, is_told: bool = False) -> PlayCounts:
+    """Play as many random actions as there are steps; LiveError where GIVES_UP resets in a row fail.
+
+    Where ``is_told``, the game is told the next action, drawn for where the rules say that this one leads; it is drawn
+    anew where this one led elsewhere.
+    """
+    in_episode, drawn = None, None
     for _ in steps:
         if in_episode is None:
-            in_episode = _begin(game, rng)
+            in_episode, drawn = _begin(game, rng), None
+        action = drawn_action(rng, game.cell, game.placed, game.scenario.size) if drawn is None else drawn
+        cell, placed = _expected(game, action)
+        drawn = None
+        if is_told and not is_over(cell, placed, in_episode + 1, game.scenario):
+            drawn = drawn_action(rng, cell, placed, game.scenario.size)
         try:
-            game.act(drawn_action(rng, game.cell, game.placed, game.scenario.size))
+            game.act(action, None, (drawn, None) if drawn is not None else None)
         except LiveError:
             in_episode = None
             continue
         in_episode += 1
+        if (game.cell, game.placed) != (cell, placed):
+            drawn = None
         if is_over(game.cell, game.placed, in_episode, game.scenario):
             in_episode = None
     return game.counts
+
+
+def _expected(game: CheckedGame, action: Action) -> tuple[Cell, set[Cell]]:
+    """Return the cell and the blocks that the rules say an action leads to."""
+    cell = rules.moved(game.cell, action, game.placed, game.scenario.size)
+    block = rules.landing(cell, action, game.placed, game.scenario.size)
+    return cell, game.placed | ({block} if block else set())
 
 
 def _begin(game: CheckedGame, rng: np.random.Generator) -> int:
@@ -188,11 +227,13 @@ def play_in(
     rng: np.random.Generator,
     before_act: Callable[[int], None] = lambda _action: None,
     now: Callable[[], float] = time.perf_counter,
+    *,
+    is_told: bool = False,
 ) -> PlayCounts:
     """Play random actions in a live game that is open; returns what was counted, and what the game logged."""
     checked = CheckedGame(game, truth, scenario, now)
     checked.before_act = before_act
-    counts = play(checked, steps, rng)
+    counts = play(checked, steps, rng, is_told=is_told)
     effort = game.log.effort
     counts.corrections, counts.second_clicks = effort.corrections, effort.second_clicks
     counts.recoveries = game.log.recoveries

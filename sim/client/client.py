@@ -7,7 +7,7 @@ game -> views, each with the time of its frame (60 a second) -> display, 10 to 3
 import dataclasses
 import math
 from functools import lru_cache
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -36,6 +36,9 @@ from sim.client.game.view import View
 from sim.client.game.world import AIR, VirtualWorld
 from sim.client.mishaps import Mishaps
 from sim.client.settings import ClientSettings, Size, scales
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
 
 TICK_S = 0.05
 
@@ -109,6 +112,8 @@ class VirtualClient:
             lambda: (self.display.area(),),
         )
 
+        self.after_tick: Callable[[], None] = lambda: None
+        """Called after each tick of the game."""
         self._missed: int | None = None
         self._unfocused_since = math.inf
         self._next_tick = self.clock.now() + float(phases.uniform(0, TICK_S))
@@ -247,13 +252,17 @@ class VirtualClient:
         if self._missed is not None:
             self._missed += 1
             return
-        self.game.tick()
+        self._tick_once()
         self.display.show(self._view())
+
+    def _tick_once(self) -> None:
+        self.game.tick()
+        self.after_tick()
 
     def _catch_up(self) -> None:
         missed, self._missed = self._missed or 0, None
         for _ in range(min(missed, MOST_TICKS)):
-            self.game.tick()
+            self._tick_once()
         self.display.show(self._view())
         self.window.resume()
 

@@ -10,7 +10,7 @@ from mc_nested.arena.action import Action
 from mc_nested.arena.builder import build
 from mc_nested.arena.drawing import CELL_PX, draw_picture
 from mc_nested.arena.env import ArenaEnv
-from mc_nested.arena.game import Outcome
+from mc_nested.arena.game import Following, Outcome
 from mc_nested.arena.scenario import Scenario
 from mc_nested.arena.scenario_file import load_scenario
 from mc_nested.errors import LiveError, ScenarioError
@@ -105,10 +105,10 @@ def test_an_unknown_material_is_refused() -> None:
 
 
 class BreaksDown(GridGame):
-    def act(self, action: Action, material: int | None = None) -> Outcome:
+    def act(self, action: Action, material: int | None = None, following: Following | None = None) -> Outcome:
         if action is Action.F:
             raise LiveError("the game is gone")
-        return super().act(action, material)
+        return super().act(action, material, following)
 
 
 def test_an_env_needs_a_reset_after_its_game_failed() -> None:

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from mc_nested.arena.action import Action, Cell
 from mc_nested.arena.builder import build
-from mc_nested.arena.game import Outcome
+from mc_nested.arena.game import Following, Outcome
 from mc_nested.arena.scenario import Scenario
 from mc_nested.arena.scenario_file import load_scenario
 from sim.grid import GridGame
@@ -30,22 +30,22 @@ class ForgetsToReset(GridGame):
 
 
 class StaysPut(GridGame):
-    def act(self, action: Action, material: int | None = None) -> Outcome:
+    def act(self, action: Action, material: int | None = None, following: Following | None = None) -> Outcome:
         before = self._cell
-        return Outcome(before, super().act(action, material).placed)
+        return Outcome(before, super().act(action, material, following).placed)
 
 
 class WalksThroughBlocks(GridGame):
-    def act(self, action: Action, material: int | None = None) -> Outcome:
+    def act(self, action: Action, material: int | None = None, following: Following | None = None) -> Outcome:
         placed, self._placed = self._placed, set()
-        outcome = super().act(action, material)
+        outcome = super().act(action, material, following)
         self._placed = placed | self._placed
         return outcome
 
 
 class ClaimsBlocksThatDidNotLand(GridGame):
-    def act(self, action: Action, material: int | None = None) -> Outcome:
-        outcome = super().act(action, material)
+    def act(self, action: Action, material: int | None = None, following: Following | None = None) -> Outcome:
+        outcome = super().act(action, material, following)
         return Outcome(outcome.cell, (outcome.cell[0], outcome.cell[1] + 1))
 
 
@@ -56,22 +56,22 @@ class StartsElsewhere(GridGame):
 
 
 class PlacesAgainAndAgain(GridGame):
-    def act(self, action: Action, material: int | None = None) -> Outcome:
-        outcome = super().act(action, material)
+    def act(self, action: Action, material: int | None = None, following: Following | None = None) -> Outcome:
+        outcome = super().act(action, material, following)
         self._placed -= {outcome.placed or (-1, -1)}
         return outcome
 
 
 class PlacesBeforeItMoves(GridGame):
-    def act(self, action: Action, material: int | None = None) -> Outcome:
+    def act(self, action: Action, material: int | None = None, following: Following | None = None) -> Outcome:
         ahead = (self._cell[0], self._cell[1] + 1)
-        outcome = super().act(action, material)
+        outcome = super().act(action, material, following)
         return Outcome(outcome.cell, ahead if outcome.placed else None)
 
 
 class WalksOutOfTheArena(GridGame):
-    def act(self, action: Action, material: int | None = None) -> Outcome:
-        outcome = super().act(action, material)
+    def act(self, action: Action, material: int | None = None, following: Following | None = None) -> Outcome:
+        outcome = super().act(action, material, following)
         x, y = outcome.cell
         return Outcome((x - (x == 0 and action is Action.L), y), outcome.placed)
 
@@ -99,9 +99,9 @@ class NotesItsBlocks(GridGame):
         self.in_hand, self.stands = material, {}
         return super().reset(material)
 
-    def act(self, action: Action, material: int | None = None) -> Outcome:
+    def act(self, action: Action, material: int | None = None, following: Following | None = None) -> Outcome:
         self.take(material)
-        outcome = super().act(action, material)
+        outcome = super().act(action, material, following)
         if outcome.placed:
             self.stands[outcome.placed] = STRIPES.materials[self.in_hand].block
         return outcome

@@ -11,7 +11,7 @@ import pytest
 
 import sim.worlds
 from mc_nested.arena.action import Action
-from mc_nested.arena.game import Outcome, Resumable
+from mc_nested.arena.game import Following, Outcome, Resumable
 from mc_nested.arena.scenario import Scenario
 from mc_nested.errors import LiveError, McNestedError
 from mc_nested.live.devices import Frame, Region
@@ -32,12 +32,12 @@ class FragileGame(GridGame):
     def resumable(self) -> Resumable | None:
         return None
 
-    def act(self, action: Action, material: int | None = None) -> Outcome:
+    def act(self, action: Action, material: int | None = None, following: Following | None = None) -> Outcome:
         self._left -= 1
         if self._left < 0 < self._failures:
             self._failures -= 1
             raise self._error
-        return super().act(action, material)
+        return super().act(action, material, following)
 
 
 class GreyDisplay:

@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 
 from mc_nested.arena.action import Action
-from mc_nested.arena.game import Outcome, Resumable
+from mc_nested.arena.game import Following, Outcome, Resumable
 from mc_nested.arena.scenario import Scenario
 from mc_nested.arrays import Arrays, Int64s
 from mc_nested.learn.preset import load_preset
@@ -33,11 +33,11 @@ class StartsOver(GridGame):
     def resumable(self) -> Resumable | None:
         return None
 
-    def act(self, action: Action, material: int | None = None) -> Outcome:
+    def act(self, action: Action, material: int | None = None, following: Following | None = None) -> Outcome:
         self.acts_left -= 1
         if self.acts_left == 0:
             raise self.error
-        return super().act(action, material)
+        return super().act(action, material, following)
 
 
 class Slips(GridVectorEnv):

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from mc_nested.arena import search
 from mc_nested.arena.action import Action, Cell
 from mc_nested.arena.env import ArenaEnv
-from mc_nested.arena.game import Outcome, PlayLog, Resumable
+from mc_nested.arena.game import Following, Outcome, PlayLog, Resumable
 from mc_nested.arena.rules import PLACES, STEP, cells_of, grid_of
 from mc_nested.arena.scenario import Scenario
 from mc_nested.arena.vector import ArenaVectorEnv
@@ -67,7 +67,7 @@ class WorldGame:
         self._cell, self._blocks = self._start, set()
         return self._cell
 
-    def act(self, action: Action, material: int | None = None) -> Outcome:  # noqa: ARG002 - here too
+    def act(self, action: Action, material: int | None = None, following: Following | None = None) -> Outcome:  # noqa: ARG002 - here too
         placed = self._place(action) if self._world.block_first else None
         target = self._on_torus((self._cell[0] + STEP[action][0], self._cell[1] + STEP[action][1]))
         if self._is_free(target):

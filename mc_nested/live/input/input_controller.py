@@ -72,6 +72,8 @@ class InputController:
         self._sees_world: Callable[[], bool] = lambda: True
         self.look_s = 0.0
         """How long the last look before a press took, in seconds."""
+        self.is_attended = True
+        """Whether what is held is released in time by who pressed it; not between two actions that overlap."""
         self._stop_reason: str | None = None
         self._exits = ExitStack()
 
@@ -214,8 +216,11 @@ class InputController:
         }
 
     def release_overdue(self) -> None:
-        """Release everything that is held OVERDUE_S longer than it should be; the watchdog calls this."""
-        overdue = self._clock.now() - OVERDUE_S
+        """Release everything that is held OVERDUE_S longer than it should be; the watchdog calls this.
+
+        While nobody waits here who would release it in time, it is released as soon as it should be.
+        """
+        overdue = self._clock.now() - (OVERDUE_S if self.is_attended else 0.0)
         self._release([name for name, held in list(self._held.items()) if held.due <= overdue])
 
     def stop(self, reason: str) -> None:

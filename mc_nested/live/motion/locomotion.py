@@ -10,7 +10,7 @@ from mc_nested.live.model.kinematics import TICK_S, plan_hold, push_of
 from mc_nested.live.model.timing import HALF_FRAME_S, surely_seen_after
 from mc_nested.live.motion.key_hold import KeyHold, Standstill
 from mc_nested.live.motion.pose_observer import PoseEstimate, PoseObserver
-from mc_nested.live.motion.walk_tracker import CoastingState, Hold, WalkTracker
+from mc_nested.live.motion.walk_tracker import AT_REST, CoastingState, Hold, WalkTracker
 from mc_nested.live.profile.tables import Profile
 
 MAX_SHIFT_S = 1.2 * TICK_S
@@ -21,6 +21,9 @@ SPRINT_WINDOW_S = 7 * TICK_S
 
 SHORT_TICKS = 2
 """Ticks of a hold that a frame, at ten a second, can make twice as long."""
+
+NOWHERE = GroundVector(1e6, 1e6)
+"""A place from which no walk leads to an arena."""
 
 LOST = 0.5
 """The share of its way that a hold has covered at least, unless it was lost or felt for too short a time."""
@@ -48,21 +51,23 @@ class Locomotion:
         self._limits = profile.body
         self._walk = profile.walk
         self._surely_seen_s = surely_seen_after(profile.walk.capture_latency_s)
-        self._push = push_of(profile.walk.covered, profile.walk.inertia)
+        self.push = push_of(profile.walk.covered, profile.walk.inertia)
+        """What a held key adds to each tick's step, in blocks."""
         self._controller = connection.controller
         self._observer = observer
         self._key_hold = KeyHold(connection, observer, profile.body.patience_s)
         self._clock = connection.devices.clock
         self._journal = connection.journal
-        self._tracker = self._tracker_at_rest(GroundVector(0.0, 0.0))
+        self._tracker = WalkTracker(CoastingState(AT_REST, AT_REST), None, profile.walk.inertia)
         self._walked: _Walked | None = None
         self._more_ticks = 0
         self._must_sneak = False
-        self._forward_at = -math.inf
+        self.forward_at = -math.inf
+        """When forward was pressed last, in seconds of the clock."""
 
-    def set_standing(self, pose: PoseEstimate) -> None:
-        """Take the agent to be standing still, as after a teleport."""
-        self._tracker = self._tracker_at_rest(pose.position)
+    def set_coasting(self, state: CoastingState | None) -> None:
+        """Take the agent to have been seen so, with every key up; None where that isn't known."""
+        self._tracker = WalkTracker(state or CoastingState(NOWHERE, AT_REST), None, self._walk.inertia)
         self._walked, self._more_ticks, self._must_sneak = None, 0, False
 
     def coasting_at(self, position: GroundVector) -> CoastingState | None:
@@ -87,7 +92,7 @@ class Locomotion:
         plan = plan_hold(distance, walk.covered, tolerance, walk.sneaking, must_sneak=self._must_sneak)
         ticks = plan.ticks + self._more_ticks
         sneak = keys.sneak if plan.gait == "sneak" else None
-        push = self._push * (walk.sneaking if sneak else 1.0)
+        push = self.push * (walk.sneaking if sneak else 1.0)
         self._tracker = WalkTracker(state, Hold(axis, sign, ticks, push), walk.inertia)
         self._walked = _Walked(state.end, axis, sign, distance, is_short=ticks <= SHORT_TICKS)
         self._journal.note("plans", key=key, ticks=ticks, sneak=sneak is not None)
@@ -95,7 +100,7 @@ class Locomotion:
             self._key_hold.begin_sneaking(sneak)
         self._hold(ticks, key, sneak)
         if key == keys.forward:
-            self._forward_at = self._key_hold.pressed_at
+            self.forward_at = self._key_hold.pressed_at
         return self._observer.look_and_check()
 
     @property
@@ -116,7 +121,7 @@ class Locomotion:
         def is_certain(seen: PoseEstimate) -> bool:
             state = self._tracker.coasting_at(seen.position)
             if state is None and standstill.is_reached(seen.position, self._clock.now()):
-                state = CoastingState(seen.position, GroundVector(0.0, 0.0), self._walk.inertia)
+                state = CoastingState(seen.position, AT_REST, self._walk.inertia)
             if state is None:
                 on_look(seen)
                 return False
@@ -128,10 +133,6 @@ class Locomotion:
         self._learn_from(states[0])
         self._tracker = WalkTracker(states[0], None, self._walk.inertia)
         return states[0], pose
-
-    def _tracker_at_rest(self, position: GroundVector) -> WalkTracker:
-        state = CoastingState(position, GroundVector(0.0, 0.0), self._walk.inertia)
-        return WalkTracker(state, None, self._walk.inertia)
 
     def _learn_from(self, state: CoastingState) -> None:
         """Let the next hold be another one if the last was not felt as it was held.
@@ -150,7 +151,7 @@ class Locomotion:
     def _wait_for_sprint_window(self, state: CoastingState) -> CoastingState:
         """Wait until forward can be pressed without sprinting, and return the agent's state then."""
         # One press comes later than another to the game by chance, by less than half a tick.
-        over_at = self._forward_at + SPRINT_WINDOW_S + TICK_S / 2
+        over_at = self.forward_at + SPRINT_WINDOW_S + TICK_S / 2
         if over_at <= self._clock.now():
             return state
         self._controller.wait_until(over_at)

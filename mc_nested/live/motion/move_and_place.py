@@ -14,10 +14,13 @@ from mc_nested.live.action_log import Effort
 from mc_nested.live.connection import GameConnection
 from mc_nested.live.model.coordinates import COASTING_CLICK, GroundVector, cell_at, hits_floor, is_click_right, is_near
 from mc_nested.live.model.debug_entries import NONE_NAMED, switch_on
+from mc_nested.live.model.kinematics import TICK_S
 from mc_nested.live.model.reading import Block, Target
 from mc_nested.live.motion.locomotion import Locomotion
+from mc_nested.live.motion.overlap import Overlap
+from mc_nested.live.motion.overlap_plan import Leg
 from mc_nested.live.motion.pose_observer import PoseEstimate, PoseFrame, PoseObserver, TickPhase, check_pose
-from mc_nested.live.motion.walk_tracker import CoastingState
+from mc_nested.live.motion.walk_tracker import AT_REST, CoastingState
 from mc_nested.live.profile.tables import Profile
 
 FAR = 2.0
@@ -40,6 +43,8 @@ class Body:
         self._journal = connection.journal
         self._observer = PoseObserver(profile, connection, PoseFrame.of_arena(profile))
         self._locomotion = Locomotion(profile, connection, self._observer)
+        self._overlap = Overlap(profile, connection, self._observer, self._locomotion)
+        self._inertia = profile.walk.inertia
         self.effort = Effort()
 
     @property
@@ -50,11 +55,20 @@ class Body:
     def forget(self) -> None:
         """Look anew before anything else: what comes depends on nothing that was seen before."""
         self._observer.forget()
+        self._overlap.end()
 
     def check_screen(self) -> None:
         """Check that the debug screen can be read and that the chat is closed; presses nothing."""
         self._observer.look()
         self._observer.permit_press()
+
+    def take(self, hotbar_key: str) -> None:
+        """Take what is in a slot of the hotbar in hand; the keys of a walk that is under way stay down."""
+        if self.is_under_way:
+            self._controller.press(self._clock.now() + TICK_S, hotbar_key)
+            return
+        self.check_screen()
+        self._controller.tap_alone(hotbar_key)
 
     def stay_in(self, cell: Cell) -> Cell:
         """Check that the agent is still in a cell, and return the cell seen; presses nothing."""
@@ -75,7 +89,71 @@ class Body:
                 f"the teleport to cell {cell} was not seen, the agent is at {pose}"
                 f"{f' and {pose.problem}' if pose.problem else ''}: are cheats on, and is this the arena's world?"
             )
-        self._locomotion.set_standing(pose)
+        self._locomotion.set_coasting(CoastingState(pose.position, AT_REST, self._inertia))
+
+    @property
+    def is_under_way(self) -> bool:
+        """Whether the walk of the next action has begun."""
+        return self._overlap.is_under_way
+
+    def go_on(self, leg: Leg, after: Leg | None, built: Mapping[Cell, str], shown_id: str) -> Cell | None:
+        """Do an action while the walk of the next one begins; return the cell where its block was seen, if it has one.
+
+        Where the ticks aren't known, or no next action is, each action waits for the end of the one before. Whatever
+        isn't as planned ends the walk: every key goes up, and the agent goes back to see what was done.
+
+        Args:
+            leg: the action.
+            after: the one that follows; None if it isn't known.
+            built: the cells that hold a block already, and the block's id there as the debug screen shows it.
+            shown_id: the id of the block that is placed.
+        """
+        overlap = self._overlap
+        if not leg.sign:
+            return self._do(leg, built, shown_id)
+        if not overlap.is_known and after is not None and self._observer.tick_phase.is_known:
+            overlap.begin()
+        if not overlap.is_known:
+            return self._do(leg, built, shown_id)
+        try:
+            is_done = overlap.go(leg, after, built, shown_id)
+        except NotConfirmedError:
+            is_done = False
+        if not is_done:
+            self._controller.release_all()
+            state = None if overlap.has_pressed else overlap.state
+            overlap.end()
+            self._locomotion.set_coasting(state)
+            if state is None:
+                self.effort.corrections += 1
+                return self._find_out(leg, built, shown_id)
+            return self._do(leg, built, shown_id)
+        if not overlap.is_under_way:
+            self._locomotion.set_coasting(overlap.state)
+        self.effort.moves += 1
+        self.effort.clicks += leg.places
+        return front_of(leg.cell) if leg.places else None
+
+    def _do(self, leg: Leg, built: Mapping[Cell, str], shown_id: str) -> Cell | None:
+        """Do an action, and wait for its end."""
+        self._overlap.end()
+        if leg.places:
+            return self.build(leg.cell, built, shown_id)
+        self.check_front(self.move_to(leg.cell), built)
+        return None
+
+    def _find_out(self, leg: Leg, built: Mapping[Cell, str], shown_id: str) -> Cell | None:
+        """Do what is left of an action that didn't come as planned, once the agent stands still."""
+        has_clicked = self._overlap.has_clicked
+        state, pose = self._locomotion.follow_to_end(self._observer.look_and_check())
+        if self._overlap.may_have_placed_elsewhere(state.end):
+            raise NotConfirmedError(f"the agent was carried on while it clicked, to {pose}: does something push it?")
+        if not has_clicked:
+            return self._do(leg, built, shown_id)
+        self.move_to(leg.cell, tries_made=1)
+        front = front_of(leg.cell)
+        is_placed = self._is_placed(leg.cell, self._arena.block_of(front), shown_id)
+        return front if is_placed else self.place(leg.cell, shown_id)
 
     def move_to(self, cell: Cell, tries_made: int = 0) -> PoseEstimate:
         """Walk until the agent stops within the tolerance of a cell's middle, and return the last pose seen.

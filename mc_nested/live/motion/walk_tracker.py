@@ -30,6 +30,8 @@ LAG_TICKS = 12
 """Ticks that a hold may be felt longer: in a game that stalls the release comes late (FACTS: Keys; ten at once)."""
 
 
+AT_REST = GroundVector(0.0, 0.0)
+
 _ROUNDING = 1e-6
 """Blocks that a sum of steps may lie off what is worked out at once."""
 

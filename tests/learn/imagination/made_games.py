@@ -5,7 +5,7 @@ from collections.abc import Callable, Sequence
 import numpy as np
 
 from mc_nested.arena.action import Action, Cell
-from mc_nested.arena.game import Game, Outcome, PlayLog, Resumable
+from mc_nested.arena.game import Following, Game, Outcome, PlayLog, Resumable
 from mc_nested.arena.rules import PLACES, STEP
 from mc_nested.arena.scenario import Scenario
 from mc_nested.learn.imagination.experience import Experience, RealStep
@@ -72,7 +72,7 @@ class MadeUpGame(Plain):
         self._cell, self._blocks = self._start, set()
         return self._cell
 
-    def act(self, action: Action, material: int | None = None) -> Outcome:  # noqa: ARG002 - and so are these
+    def act(self, action: Action, material: int | None = None, following: Following | None = None) -> Outcome:  # noqa: ARG002 - and so are these
         ahead = (self._cell[0] + self._moves[action][0], self._cell[1] + self._moves[action][1])
         if self._is_free(ahead):
             self._cell = ahead
@@ -123,10 +123,10 @@ class Slipping(Plain):
     def reset(self, material: int) -> Cell:
         return self._game.reset(material)
 
-    def act(self, action: Action, material: int | None = None) -> Outcome:
+    def act(self, action: Action, material: int | None = None, following: Following | None = None) -> Outcome:
         if self._random.random() < self._share:
             action = Action(int(self._random.integers(0, len(Action))))
-        return self._game.act(action, material)
+        return self._game.act(action, material, following)
 
 
 def seen_at_random(game: Game, scenario: Scenario, episodes: int, seed: int = 0) -> Experience:

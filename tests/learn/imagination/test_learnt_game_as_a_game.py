@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 from mc_nested.arena.action import Action, Cell
 from mc_nested.arena.builder import build
-from mc_nested.arena.game import Game, Outcome
+from mc_nested.arena.game import Following, Game, Outcome
 from mc_nested.arena.scenario import Scenario
 from mc_nested.arena.scenario_file import load_scenario
 from mc_nested.learn.imagination.arena_step import NOWHERE, ImaginedArena, cell_at, imagined_arena, index_of, step
@@ -35,7 +35,7 @@ class ImaginedGame(made_games.Plain):
         self._solid = self._arena.empty.copy()
         return cell_at(self._position, self._arena)
 
-    def act(self, action: Action, material: int | None = None) -> Outcome:  # noqa: ARG002 - and so are these
+    def act(self, action: Action, material: int | None = None, following: Following | None = None) -> Outcome:  # noqa: ARG002 - and so are these
         self._position, block = step(self._arena, self._position, int(action), self._solid)
         placed = None if block == NOWHERE else cell_at(block, self._arena)
         return Outcome(cell_at(self._position, self._arena), placed)

@@ -86,7 +86,7 @@ def test_a_hold_is_felt_for_exactly_its_ticks_once_the_tick_phase_is_known(
     walk = Walk(phase=phase)
     walk.know_ticks()
     walk.game.clock.time += later
-    walk.locomotion.set_standing(walk.observer.look())
+    walk.locomotion.set_coasting(CoastingState(walk.observer.look().position, AT_REST.velocity))
     walk.walk(displacement(ticks), 0.0)
     assert walk.end() == pytest.approx((7.0 + displacement(ticks), 7.0), abs=0.001)
 
@@ -145,7 +145,7 @@ def test_an_agent_that_never_stops_is_an_error_after_repeated_releases() -> None
 
 def test_an_agent_whose_position_fits_no_path_is_watched_until_it_stands_still() -> None:
     walk = Walk()
-    walk.locomotion.set_standing(walk.observer.look())
+    walk.locomotion.set_coasting(CoastingState(walk.observer.look().position, AT_REST.velocity))
     walk.game.xyz = (7.3, 64.0, 7.5)
     walk.game.steps.append((walk.game.clock.now(), walk.game.xyz))
     walk.game.clock.time += 0.1
@@ -158,7 +158,7 @@ def test_an_agent_whose_position_fits_no_path_is_watched_until_it_stands_still()
 def test_a_late_press_delays_the_release_so_that_the_hold_keeps_its_ticks() -> None:
     walk = Walk()
     walk.know_ticks()
-    walk.locomotion.set_standing(walk.observer.look())
+    walk.locomotion.set_coasting(CoastingState(walk.observer.look().position, AT_REST.velocity))
     walk.game.late_from, walk.game.late_until = walk.game.clock.now(), walk.game.clock.now() + 0.05
     walk.walk(displacement(5), 0.0)
     assert walk.end() == pytest.approx((7.0 + displacement(5), 7.0), abs=0.001)
@@ -213,14 +213,14 @@ def test_holds_that_are_not_felt_make_the_next_ones_longer() -> None:
 def test_a_teleport_resets_the_length_of_the_next_hold() -> None:
     walk, keyboard = forgetful(1)
     walk.walk(displacement(1), 0.0)
-    walk.locomotion.set_standing(walk.observer.look())
+    walk.locomotion.set_coasting(CoastingState(walk.observer.look().position, AT_REST.velocity))
     walk.walk(displacement(1), 0.0)
     assert keyboard.held == [("d", 1), ("d", 1)]
 
 
 def test_the_agent_sneaks_after_a_short_hold_that_led_too_far() -> None:
     walk = Walk()
-    walk.locomotion.set_standing(walk.observer.look())
+    walk.locomotion.set_coasting(CoastingState(walk.observer.look().position, AT_REST.velocity))
     walk.game.late_from, walk.game.late_until = walk.game.clock.now() + 0.04, walk.game.clock.now() + 0.14
     state, _ = walk.walk(displacement(1), 0.0)
     assert state.end.right > 7.0 + displacement(2)

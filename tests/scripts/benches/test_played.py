@@ -8,7 +8,7 @@ import pytest
 
 from mc_nested.arena import rules
 from mc_nested.arena.action import Action, Cell
-from mc_nested.arena.game import Outcome
+from mc_nested.arena.game import Following, Outcome
 from mc_nested.arena.scenario_file import load_scenario
 from mc_nested.errors import LiveError, NotConfirmedError
 from mc_nested.live.live_game import LiveGame
@@ -100,11 +100,11 @@ class Deceived:
     def reset(self, material: int) -> Cell:
         return self._game.reset(material)
 
-    def act(self, action: Action, material: int | None = None) -> Outcome:
+    def act(self, action: Action, material: int | None = None, following: Following | None = None) -> Outcome:
         self._acts_left -= 1
         if not self._acts_left:
             raise LiveError("gone")
-        self._game.act(action, material)
+        self._game.act(action, material, following)
         return Outcome(LINE.start, None)
 
 
