@@ -16,7 +16,7 @@ from mc_nested.live.connection import GameConnection
 from mc_nested.live.model.coordinates import GroundVector, cell_at
 from mc_nested.live.model.kinematics import TICK_S
 from mc_nested.live.model.reading import Target
-from mc_nested.live.model.timing import HALF_FRAME_S, THIRD_FRAME_S, surely_seen_after
+from mc_nested.live.model.timing import EARLY_LOOK_S, HALF_FRAME_S, THIRD_FRAME_S, surely_seen_after
 from mc_nested.live.motion.locomotion import Locomotion
 from mc_nested.live.motion.overlap_plan import FORWARD, SEEN_TICKS, Change, Leg, Plan, Planner, Surroundings, Walk
 from mc_nested.live.motion.pose_observer import PoseEstimate, PoseObserver
@@ -34,6 +34,9 @@ TOO_LATE_S = TICK_S / 2 - HALF_FRAME_S
 
 SHIFTS = (0, 1, -1)
 """Ticks that a key may be felt later than planned, likeliest first."""
+
+EARLY_S = TICK_S / 2 + EARLY_LOOK_S
+"""Seconds before a step is surely seen at which it may be seen first."""
 
 SWEEP = 0.05
 """Blocks between two places at which a late click is looked into."""
@@ -56,8 +59,8 @@ class _Action:
     swept: list[GroundVector] = field(default_factory=list)
 
     def is_done(self, tick: int) -> bool:
-        """Return whether all of it was seen by that tick; with nothing after it, also that its key is up."""
-        return self.was_there and self.is_front_right and (self.after is not None or tick > self.plan.stop)
+        """Return whether all of it was seen by that tick: the end of its walk, the cell, and what stands in front."""
+        return self.was_there and self.is_front_right and tick > self.plan.release
 
 
 class Overlap:
@@ -156,45 +159,53 @@ class Overlap:
 
     def _is_done(self, action: _Action) -> bool:
         """Look on, tick by tick, and return whether the action was seen to be done, as planned."""
+        looked_at = -math.inf
         while self._walk is not None:
             tick = self._next_tick(self._walk)
             if tick > max(action.plan.stop, action.plan.click or 0) + SEEN_TICKS:
                 return False
-            if not self._send(action, self._time_of_look(tick)):
+            sure_at = self._time_of_look(tick)
+            look_at = max(sure_at - self._early_s(action, self._walk, tick), looked_at + THIRD_FRAME_S)
+            if not self._send(action, look_at):
                 return False
-            self._controller.wait_until(self._time_of_look(tick))
-            if not self._look_on(action, self._walk, tick):
+            self._controller.wait_until(look_at)
+            looked_at = self._clock.now()
+            pose = self._look()
+            found = self._followed(self._walk, pose.position, tick, is_sure=looked_at >= sure_at)
+            if found is None and looked_at < sure_at + THIRD_FRAME_S:
+                continue  # the picture is an older one
+            if found is None or not self._takes_in(action, found, pose, self._walk.positions(tick - 1)[tick - 1]):
                 return False
             if action.is_done(tick):
                 return True
         return False
 
-    def _look_on(self, action: _Action, walk: Walk, tick: int) -> bool:
-        """Look at the step of a tick, and return whether all is as planned, or can be planned anew."""
-        pose = self._look()
-        found = self._followed(walk, pose.position, tick)
-        if found is None:
-            self._controller.wait(THIRD_FRAME_S)  # the picture may be older than usual
-            pose = self._look()
-            found = self._followed(walk, pose.position, tick)
-        if found is None:
-            return False
-        eyes = walk.positions(tick - 1)[tick - 1]
-        is_late = found.changes != walk.changes
-        self._walk = Walk(tick, found.state, _pruned(found.changes, tick))
+    def _early_s(self, action: _Action, walk: Walk, tick: int) -> float:
+        """Return how long before a step is surely seen looks for it begin: while a block is awaited, they come early."""
+        before, after = (state.position for state in walk.states(tick)[-2:])
+        off = after.minus(before)
+        is_awaited = action.plan.click is not None and action.is_clicked and tick > action.plan.click
+        return EARLY_S if is_awaited and max(abs(off.right), abs(off.forward)) > 2 * SLIPPERY_MATCH else 0.0
+
+    def _takes_in(self, action: _Action, found: Walk, pose: PoseEstimate, eyes: GroundVector) -> bool:
+        """Take in what was seen of a tick; return whether all is as planned, or can be planned anew."""
+        is_late = self._walk is not None and found.changes != self._walk.changes
+        self._walk = Walk(found.tick, found.state, _pruned(found.changes, found.tick))
         if action.is_clicked:
             action.swept.append(pose.position)
         return self._is_right(action, pose, eyes) and (not is_late or self._plans_anew(action))
 
-    def _followed(self, walk: Walk, seen: GroundVector, tick: int) -> Walk | None:
+    def _followed(self, walk: Walk, seen: GroundVector, tick: int, *, is_sure: bool) -> Walk | None:
         """Return the walker after a tick, where it was seen; with the gaps in which its keys were felt.
 
-        Return None if its keys would have to have been felt at other times for that.
+        Return None if it can't be there then. Before that tick is surely seen, no key counts as felt late: an older
+        picture would look like that.
         """
         known = [change for change in walk.changes if change.gap < walk.tick or change.gap >= tick]
         unsure = [change for change in walk.changes if walk.tick <= change.gap < tick]
         slack = SLIPPERY_MATCH if self._inertia > SLIPPERY else MATCH
-        for shifts in sorted(product(SHIFTS, repeat=len(unsure)), key=lambda each: sum(map(abs, each))):
+        possible = product(SHIFTS if is_sure else SHIFTS[:1], repeat=len(unsure))
+        for shifts in sorted(possible, key=lambda each: sum(map(abs, each))):
             moved = [each._replace(gap=each.gap + shift) for each, shift in zip(unsure, shifts, strict=True)]
             changes = tuple(sorted([*known, *moved], key=lambda change: change.gap))
             state = Walk(walk.tick, walk.state, changes).states(tick)[-1]

@@ -63,7 +63,7 @@ class Change(NamedTuple):
 
 
 class Plan(NamedTuple):
-    """The gaps in which an action's key goes up, the next one's down and up, and in which the click is sent.
+    """The gaps in which an action's walk is over, the next one's key goes down and up, and the click is sent.
 
     ``start`` is None where no other key goes down: no walk follows, or the same key stays down until ``stop``.
     ``click`` is None for a plain move. ``changes`` are all that were sent, and these.
@@ -204,10 +204,10 @@ class Planner:
         if release is None:
             return None
         if after is None:
-            return self._try(walk, leg, Change(release, AT_REST), None, first)
+            return self._try(walk, leg, Change(release, AT_REST), (release, None), first)
         goes_on = (after.axis, after.sign) == (leg.axis, leg.sign)
         if goes_on and (stop := self._release(walk, after, release + 1)) is not None:
-            plan = self._try(walk, leg, Change(stop, AT_REST), None, first)
+            plan = self._try(walk, leg, Change(stop, AT_REST), (release, None), first)
             if plan is not None:
                 return plan
         earliest = max(release + goes_on, no_forward if (after.axis, after.sign) == FORWARD else release)
@@ -218,7 +218,7 @@ class Planner:
     def end(self, walk: Walk, leg: Leg, after: Leg, first: int) -> Plan | None:
         """Return how an action ends while the next one's key is down already."""
         stop = self._release(walk, after, first)
-        return None if stop is None else self._try(walk, leg, Change(stop, AT_REST), None, first)
+        return None if stop is None else self._try(walk, leg, Change(stop, AT_REST), (first, None), first)
 
     def _turn(self, walk: Walk, leg: Leg, after: Leg, gaps: tuple[int, int], first: int) -> Plan | None:
         """Return the plan in which the key goes up in the first of these gaps, and the next one down in the second."""
@@ -236,13 +236,13 @@ class Planner:
         best = min(ends, key=lambda gap: ends[gap])
         return best if ends[best] <= self.tolerance else None
 
-    def _try(self, walk: Walk, leg: Leg, last: Change, turn: tuple[int, int] | None, first: int) -> Plan | None:
+    def _try(self, walk: Walk, leg: Leg, last: Change, gaps: tuple[int, int | None], first: int) -> Plan | None:
         """Return the plan with that last change, if nothing is in its way and the action can be seen to be done."""
         whole = walk.also(last)
         positions = whole.positions(last.gap + SEEN_TICKS)
         if not all(self.around.is_free(position) for position in positions.values()):
             return None
-        release, start = turn or (last.gap, None)
+        release, start = gaps
         if not leg.places:
             seen = (cell_at(each) == leg.cell and self.around.sees(each, leg.cell) for each in positions.values())
             return Plan(release, start, last.gap, None, whole.changes) if any(seen) else None
