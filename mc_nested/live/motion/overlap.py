@@ -181,7 +181,7 @@ class Overlap:
         return False
 
     def _early_s(self, action: _Action, walk: Walk, tick: int) -> float:
-        """Return how long before a step is surely seen looks for it begin: while a block is awaited, they come early."""
+        """Return how long before a step is surely seen looks for it begin: early while a block is awaited."""
         before, after = (state.position for state in walk.states(tick)[-2:])
         off = after.minus(before)
         is_awaited = action.plan.click is not None and action.is_clicked and tick > action.plan.click
