@@ -117,6 +117,7 @@ class LiveGame:
         If the last action left another screen open, that is left first.
         """
         self._cell, self._announced = None, None
+        self.log.pauses()
         self._controller.release_all()
         self._body.forget()
         self._journal.note("resets", material=material, **self._known())
@@ -188,22 +189,24 @@ class LiveGame:
             told["following"] = (int(following[0]), following[1])
         self._journal.note("acts", action=int(action), cell=cell, **told)
         began = self._clock.now()
+        self.log.begins(began, self._controller.held_s)
         self._controller.is_attended = True
         try:
             if material is not None:
                 self._take_in_hand(material)
             outcome = self._perform(cell, action, following if self._overlaps else None)
-        except LiveError as error:
-            self.log.failed_actions += 1
-            self._journal.note("fails", problem=str(error))
+        except BaseException as error:
+            self._controller.release_all()
+            if isinstance(error, LiveError):
+                self.log.failed_actions += 1
+                self._journal.note("fails", problem=str(error))
             raise
-        finally:
-            self._controller.is_attended = False
-            if not self._body.is_under_way:
-                self._controller.release_all()
-        seconds = self._clock.now() - began
-        self.log.seconds.append(seconds)
-        self._journal.note("done", cell=outcome.cell, placed=outcome.placed, seconds=seconds)
+        if not self._body.is_under_way:
+            self._controller.release_all()
+        self._controller.is_attended = False
+        ended = self._clock.now()
+        self.log.ends(ended, self._controller.held_s)
+        self._journal.note("done", cell=outcome.cell, placed=outcome.placed, seconds=ended - began)
         self._cell = outcome.cell
         self._announced = following if self._body.is_under_way else None
         if outcome.placed is not None:

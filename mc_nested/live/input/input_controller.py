@@ -74,6 +74,7 @@ class InputController:
         """How long the last look before a press took, in seconds."""
         self.is_attended = True
         """Whether what is held is released in time by who pressed it; not between two actions that overlap."""
+        self._down_s, self._down_since = 0.0, 0.0
         self._stop_reason: str | None = None
         self._exits = ExitStack()
 
@@ -90,6 +91,11 @@ class InputController:
             releases.callback(self.release_all)
             releases.callback(self.release_all)
         atexit.unregister(self.release_all)
+
+    @property
+    def held_s(self) -> float:
+        """For how many seconds anything was down so far."""
+        return self._down_s + (self._clock.now() - self._down_since if self._held else 0.0)
 
     def confirm_screen(self, screen: PressTarget, look_again: Callable[[], None] | None = None) -> None:
         """Say which screen was just seen: presses meant for it are permitted for FRESH_S, and no others.
@@ -322,6 +328,7 @@ class InputController:
             with self._lock:
                 self._check_press(on)
                 # Noted before it is pressed: an interrupt between the two would leave it down otherwise.
+                self._down_since = self._down_since if self._held else self._clock.now()
                 self._held[name] = _Held(release, min(until, self._clock.now() + LONGEST_S))
                 if on == "world":
                     self._pressed[name] = release
@@ -340,3 +347,4 @@ class InputController:
         if held := self._held.get(name):
             held.release()
             self._held.pop(name, None)
+            self._down_s += 0.0 if self._held else self._clock.now() - self._down_since

@@ -27,6 +27,10 @@ FAR = 2.0
 """Blocks: an agent so far from a neighbouring cell did not get there by walking to it."""
 
 
+TRUSTED, MOST_LOSSES = 20, 7
+"""Actions as planned after which an earlier one that wasn't counts no more; and how many of those count at most."""
+
+
 class Body:
     """Moves the agent from cell to cell and places blocks, in a closed loop over what the debug screen says.
 
@@ -45,6 +49,7 @@ class Body:
         self._locomotion = Locomotion(profile, connection, self._observer)
         self._overlap = Overlap(profile, connection, self._observer, self._locomotion)
         self._inertia = profile.walk.inertia
+        self._waits, self._losses, self._since_loss = 0, 0, 0
         self.effort = Effort()
 
     @property
@@ -109,7 +114,8 @@ class Body:
             shown_id: the id of the block that is placed.
         """
         overlap = self._overlap
-        if not leg.sign:
+        self._waits -= not overlap.is_under_way and self._waits > 0
+        if not leg.sign or (self._waits and not overlap.is_under_way):
             return self._do(leg, built, shown_id)
         if not overlap.is_known and after is not None and self._observer.tick_phase.is_known:
             overlap.begin()
@@ -120,19 +126,32 @@ class Body:
         except NotConfirmedError:
             is_done = False
         if not is_done:
-            self._controller.release_all()
-            state = None if overlap.has_pressed else overlap.state
-            overlap.end()
-            self._locomotion.set_coasting(state)
-            if state is None:
-                self.effort.corrections += 1
-                return self._find_out(leg, built, shown_id)
-            return self._do(leg, built, shown_id)
+            return self._end_overlap(leg, built, shown_id)
         if not overlap.is_under_way:
             self._locomotion.set_coasting(overlap.state)
+        self._losses = 0 if self._losses and self._since_loss >= TRUSTED else self._losses
+        self._since_loss += 1
         self.effort.moves += 1
+        self.effort.overlapped += overlap.is_under_way
         self.effort.clicks += leg.places
         return front_of(leg.cell) if leg.places else None
+
+    def _end_overlap(self, leg: Leg, built: Mapping[Cell, str], shown_id: str) -> Cell | None:
+        """Release every key, and do what is left of the action once the agent stands still.
+
+        The next actions don't overlap, the more of them the more often that happens.
+        """
+        self._controller.release_all()
+        state = None if self._overlap.has_pressed else self._overlap.state
+        self._overlap.end()
+        self._locomotion.set_coasting(state)
+        if state is not None:
+            return self._do(leg, built, shown_id)
+        self.effort.corrections += 1
+        self._losses, self._since_loss = min(self._losses + 1, MOST_LOSSES), 0
+        self._waits = 2**self._losses
+        self._journal.note("fails", problem=f"a walk was not felt as planned: {self._waits} actions don't overlap now")
+        return self._find_out(leg, built, shown_id)
 
     def _do(self, leg: Leg, built: Mapping[Cell, str], shown_id: str) -> Cell | None:
         """Do an action, and wait for its end."""

@@ -210,7 +210,10 @@ class Planner:
             plan = self._try(walk, leg, Change(stop, AT_REST), (release, None), first)
             if plan is not None:
                 return plan
-        earliest = max(release + goes_on, no_forward if (after.axis, after.sign) == FORWARD else release)
+        is_forward = (after.axis, after.sign) == FORWARD
+        if goes_on and is_forward:
+            return None  # pressed again so soon, it would sprint
+        earliest = max(release + goes_on, no_forward if is_forward else release)
         starts = range(earliest, release + MOST_WAIT + 1)
         turns = (self._turn(walk, leg, after, (release, start), first) for start in starts)
         return next((plan for plan in turns if plan is not None), None)
@@ -246,8 +249,8 @@ class Planner:
         if not leg.places:
             seen = (cell_at(each) == leg.cell and self.around.sees(each, leg.cell) for each in positions.values())
             return Plan(release, start, last.gap, None, whole.changes) if any(seen) else None
-        gaps = range(max(first, walk.tick + 1), last.gap + SEEN_TICKS - 2)
-        click = next((gap for gap in gaps if self._may_click(whole, positions, leg, gap)), None)
+        possible = range(max(first, walk.tick + 1), last.gap + SEEN_TICKS - 2)
+        click = next((gap for gap in possible if self._may_click(whole, positions, leg, gap)), None)
         return None if click is None else Plan(release, start, last.gap, click, whole.changes)
 
     def _may_click(self, walk: Walk, positions: dict[int, GroundVector], leg: Leg, gap: int) -> bool:
