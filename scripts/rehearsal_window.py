@@ -29,6 +29,10 @@ class TruthReader:
         found: dict[str, Any] = json.loads(self._path.read_text(encoding="utf-8"))
         return found
 
+    def way(self) -> list[tuple[int, tuple[float, float, float]]]:
+        """Return where the player was after each of the last ticks, by the tick's number."""
+        return [(tick, (x, y, z)) for tick, (x, y, z) in self.now()["way"]]
+
     def feet(self) -> tuple[float, float, float]:
         """Return where the player is."""
         x, y, z = self.now()["feet"]

@@ -2,7 +2,7 @@
 
 import dataclasses
 import time
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import suppress
 from typing import Any
 
@@ -23,6 +23,9 @@ from sim.client.client import VirtualClient
 
 GIVES_UP = 3
 """Resets in a row that may fail: a game that can't be reset would go on for ever."""
+
+Step = tuple[int, tuple[float, float, float]]
+"""A tick's number, and where the feet were after it."""
 
 Transition = tuple[int, ...]
 """(x, y, b), the action, and (x, y, b) after it."""
@@ -64,24 +67,28 @@ class WorldTruth:
 
     Args:
         arena: where blocks are placed.
-        feet: says where the player is.
+        way: says where the player's feet were after each of the last ticks, by the tick's number; the last is now.
         built: gives every block that differs from the bare floor.
     """
 
-    def __init__(
-        self, arena: Arena, feet: Callable[[], tuple[float, float, float]], built: Callable[[], dict[Block, str]]
-    ) -> None:
-        self._arena, self._feet, self._built = arena, feet, built
+    def __init__(self, arena: Arena, way: Callable[[], Sequence[Step]], built: Callable[[], dict[Block, str]]) -> None:
+        self._arena, self._way, self._built = arena, way, built
+        self._since = 0
         standing = standing_in(arena, built())
         self._before = {at: name for at, name in built().items() if at not in standing}
 
     def cell(self) -> Cell:
         """Return the cell that the player stands on."""
-        return cell_at(self._arena.position_of(self._feet()))
+        return self._cell_at(self._way()[-1])
 
     def passed(self, cell: Cell) -> bool:
-        """Return whether the player is in that cell, or was in it since the cell that was asked for last."""
-        return self.cell() == cell
+        """Return whether the player is in that cell, or was in it at a tick since the cell that was asked for last."""
+        there = [step[0] for step in self._way() if step[0] >= self._since and self._cell_at(step) == cell]
+        self._since = there[0] if there else self._since
+        return bool(there)
+
+    def _cell_at(self, step: Step) -> Cell:
+        return cell_at(self._arena.position_of(step[1]))
 
     def is_built(self, placed: set[Cell]) -> bool:
         """Return whether these cells hold a block, and everything else is as before."""
@@ -93,20 +100,7 @@ class ClientTruth(WorldTruth):
     """What a virtual client's world really holds."""
 
     def __init__(self, client: VirtualClient, arena: Arena) -> None:
-        super().__init__(arena, lambda: client.realm.player.feet, lambda: client.built)
-        self._way = [self.cell()]
-        client.after_tick = self._note
-
-    def passed(self, cell: Cell) -> bool:
-        """Return whether the player is in that cell, or was in it at a tick since the cell that was asked for last."""
-        if cell not in self._way:
-            return False
-        del self._way[: self._way.index(cell)]
-        return True
-
-    def _note(self) -> None:
-        if (cell := self.cell()) != self._way[-1]:
-            self._way.append(cell)
+        super().__init__(arena, lambda: client.way, lambda: client.built)
 
 
 class CheckedGame:

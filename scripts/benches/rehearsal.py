@@ -95,10 +95,10 @@ def play_here(profile: str, truth: str, actions: str, seed: str) -> None:
     """Play so many random actions on this process's display, and print the figures as one JSON object."""
     scenario = load_scenario("diamond")
     client = TruthReader(Path(truth))
-    seen = WorldTruth(load_profile(profile).marked_arena(), client.feet, client.built)
+    seen = WorldTruth(load_profile(profile).marked_arena(), client.way, client.built)
     with open_live_game(scenario, Opening(profile, lambda line: print(line, file=sys.stderr))) as (game, _):
         steps = track(range(int(actions)), "actions", console=Console(stderr=True))
-        played = play_in(game, seen, scenario, steps, np.random.default_rng(int(seed)))
+        played = play_in(game, seen, scenario, steps, np.random.default_rng(int(seed)), is_told=True)
     print(json.dumps(figures_of(played)))
 
 

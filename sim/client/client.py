@@ -6,8 +6,9 @@ game -> views, each with the time of its frame (60 a second) -> display, 10 to 3
 
 import dataclasses
 import math
+from collections import deque
 from functools import lru_cache
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -30,17 +31,17 @@ from sim.client.game.controls import Controls
 from sim.client.game.edition import Edition
 from sim.client.game.game import VirtualGame
 from sim.client.game.keys import BINDINGS, SIDES_SWAPPED, GameKeys
-from sim.client.game.physics import Ground
+from sim.client.game.physics import Ground, Vector
 from sim.client.game.realm import Player, Realm, read_world, write_world
 from sim.client.game.view import View
 from sim.client.game.world import AIR, VirtualWorld
 from sim.client.mishaps import Mishaps
 from sim.client.settings import ClientSettings, Size, scales
 
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
 TICK_S = 0.05
+
+WAY_TICKS = 100
+"""Ticks for which it is kept where the player was: longer than an action takes."""
 
 PAUSE_AFTER_S = 0.5
 """Seconds without the focus after which the game pauses (FACTS: Keys)."""
@@ -112,8 +113,8 @@ class VirtualClient:
             lambda: (self.display.area(),),
         )
 
-        self.after_tick: Callable[[], None] = lambda: None
-        """Called after each tick of the game."""
+        self.way: deque[tuple[int, Vector]] = deque([(0, settings.feet)], maxlen=WAY_TICKS)
+        """Where the player was after each of the last ticks, by the tick's number, the last one last."""
         self._missed: int | None = None
         self._unfocused_since = math.inf
         self._next_tick = self.clock.now() + float(phases.uniform(0, TICK_S))
@@ -257,7 +258,7 @@ class VirtualClient:
 
     def _tick_once(self) -> None:
         self.game.tick()
-        self.after_tick()
+        self.way.append((self.game.ticks, self.realm.player.feet))
 
     def _catch_up(self) -> None:
         missed, self._missed = self._missed or 0, None

@@ -55,8 +55,9 @@ class MishapWindow:
 class TruthFile:
     """One JSON object, written anew at each frame in which something has changed, before that frame is shown.
 
-    ``screen``, ``feet`` (blocks), ``yaw`` and ``pitch`` (degrees), ``block_in_hand``, ``keys_down``, ``is_in_front``,
-    and ``built``: x, y, z and the name of each block that differs from the bare floor.
+    ``screen``, ``feet`` (blocks), ``way`` (of each of the last ticks the number, and the feet after it), ``yaw`` and
+    ``pitch`` (degrees), ``block_in_hand``, ``keys_down``, ``is_in_front``, and ``built``: x, y, z and the name of each
+    block that differs from the bare floor.
     """
 
     def __init__(self, path: Path, client: VirtualClient) -> None:
@@ -68,9 +69,10 @@ class TruthFile:
     def write(self) -> None:
         """Write it, unless nothing has changed but the time."""
         truth = {**truth_of(self._client), "built": self._listed(self._client.realm.world.seen())}
-        if truth == self._written:
+        changes = {**truth, "way": None}
+        if changes == self._written:
             return
-        self._written = truth
+        self._written = changes
         with atomic_write(self._path) as unfinished:
             unfinished.write_text(json.dumps(truth), encoding="utf-8")
 
@@ -88,6 +90,7 @@ def truth_of(client: VirtualClient) -> dict[str, Any]:
     return {
         "screen": client.game.screen,
         "feet": player.feet,
+        "way": list(client.way),
         "yaw": player.yaw,
         "pitch": player.pitch,
         "block_in_hand": stack.block if stack else None,
