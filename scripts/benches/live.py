@@ -156,15 +156,19 @@ def live_game(
     arena: Arena,
     walk_table: WalkTable | None = None,
     controller: InputController | None = None,
+    *,
+    overlaps: bool = True,
 ) -> LiveGame:
     """Return a live game on a virtual client.
 
-    Its player walks as in ``walk_table``, or as usual; ``controller``, if given, presses its keys.
+    Its player walks as in ``walk_table``, or as usual; ``controller``, if given, presses its keys. Actions overlap
+    where the next one is announced, if they may.
     """
     return LiveGame(
         scenario,
         Profile(game=GameVersion(version=client.settings.version), arena=arena, walk=walk_table or WalkTable()),
         connection_to(client, controller),
+        overlaps=overlaps,
     )
 
 

@@ -38,6 +38,9 @@ SHIFTS = (0, 1, -1)
 EARLY_S = TICK_S / 2 + EARLY_LOOK_S
 """Seconds before a step is surely seen at which it may be seen first."""
 
+MOST_PLANS = 2
+"""How often an action is planned anew: a key that is felt a tick later again and again isn't felt at all."""
+
 SWEEP = 0.05
 """Blocks between two places at which a late click is looked into."""
 
@@ -56,6 +59,7 @@ class _Action:
     sees_floor: bool = False
     is_clicked: bool = False
     is_front_right: bool = False
+    planned_anew: int = 0
     swept: list[GroundVector] = field(default_factory=list)
 
     def is_done(self, tick: int) -> bool:
@@ -238,6 +242,9 @@ class Overlap:
 
     def _plans_anew(self, action: _Action) -> bool:
         """Plan what is left of an action once a key was felt at another time; return whether that is possible."""
+        action.planned_anew += 1
+        if action.planned_anew > MOST_PLANS:
+            return False  # the key was lost
         walk, first = self._walk, self._first_gap()
         if walk is None or action.is_clicked:
             return walk is not None  # the next action's plan begins with what was seen

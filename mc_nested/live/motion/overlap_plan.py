@@ -268,8 +268,7 @@ class Planner:
 
     def _sees_before(self, positions: dict[int, GroundVector], cell: Cell, gap: int) -> bool:
         """Return whether the floor is seen before the click: a frame shows what the eyes saw a tick before."""
-        seen = [tick for tick in range(gap - self.lag) if tick in positions]
-        return any(self.around.sees(positions[tick], cell) for tick in seen)
+        return any(self.around.sees(eyes, cell) for tick, eyes in positions.items() if tick < gap - self.lag)
 
     def _unseen(self, changes: Sequence[Change], gap: int) -> list[Change]:
         """Return the changes after which a key may be down in a gap: the last one seen to be felt, and all after it."""

@@ -3,6 +3,7 @@
 from mc_nested.arena.scenario import Scenario
 from mc_nested.live.connection import GameConnection, prepare_keyboard
 from mc_nested.live.input.input_controller import InputController
+from mc_nested.live.journal import Journal
 from mc_nested.live.live_game import LiveGame
 from mc_nested.live.model.coordinates import Facing
 from mc_nested.live.model.reading import Reading
@@ -33,11 +34,13 @@ def screen_of(client: VirtualClient) -> WindowScreen:
     return WindowScreen(client.display, FONT, version=client.settings.version)
 
 
-def connection_to(client: VirtualClient, *, is_server_allowed: bool = False) -> GameConnection:
-    """Return the client, read with its own font."""
+def connection_to(
+    client: VirtualClient, journal: Journal | None = None, *, is_server_allowed: bool = False
+) -> GameConnection:
+    """Return the client, read with its own font; the journal is told what is done there."""
     controller = InputController(client.devices, InputTable())
     screen = screen_of(client)
-    return GameConnection(client.devices, controller, screen, is_server_allowed=is_server_allowed)
+    return GameConnection(client.devices, controller, screen, is_server_allowed=is_server_allowed, journal=journal)
 
 
 def play(client: VirtualClient, scenario: Scenario, facing: Facing = "south") -> LiveGame:
