@@ -22,6 +22,8 @@ def test_the_summary_has_the_bodys_counts_and_the_actions_times() -> None:
     assert log.summary() == {
         "actions": 3,
         "action_s": {"p50": 0.3, "p95": 0.48, "p99": 0.496},
+        "share": "",
+        "overlapped": 0,
         "moves": 4,
         "corrections": 1,
         "clicks": 2,

@@ -74,7 +74,8 @@ class InputController:
         """How long the last look before a press took, in seconds."""
         self.is_attended = True
         """Whether what is held is released in time by who pressed it; not between two actions that overlap."""
-        self._down_s, self._down_since = 0.0, 0.0
+        self._down_s = 0.0
+        self._down_since: float | None = None
         self._stop_reason: str | None = None
         self._exits = ExitStack()
 
@@ -95,7 +96,11 @@ class InputController:
     @property
     def held_s(self) -> float:
         """For how many seconds anything was down so far."""
-        return self._down_s + (self._clock.now() - self._down_since if self._held else 0.0)
+        now = self._clock.now()
+        if self._down_since is not None:
+            self._down_s += now - self._down_since
+            self._down_since = now if self._held else None
+        return self._down_s
 
     def confirm_screen(self, screen: PressTarget, look_again: Callable[[], None] | None = None) -> None:
         """Say which screen was just seen: presses meant for it are permitted for FRESH_S, and no others.
@@ -192,6 +197,8 @@ class InputController:
                 self._clock.sleep_until(min(soonest, at))
                 now = self._clock.now()
                 self._release([name for name, held in list(self._held.items()) if held.due <= now])
+                if self._down_since is not None and not self._held:
+                    self._down_s, self._down_since = self._down_s + now - self._down_since, None
                 if now >= at:
                     return
                 self._check_running()
@@ -328,8 +335,9 @@ class InputController:
             with self._lock:
                 self._check_press(on)
                 # Noted before it is pressed: an interrupt between the two would leave it down otherwise.
-                self._down_since = self._down_since if self._held else self._clock.now()
-                self._held[name] = _Held(release, min(until, self._clock.now() + LONGEST_S))
+                now = self._clock.now()
+                self._down_since = self._down_since or now
+                self._held[name] = _Held(release, min(until, now + LONGEST_S))
                 if on == "world":
                     self._pressed[name] = release
                 press()
@@ -347,4 +355,3 @@ class InputController:
         if held := self._held.get(name):
             held.release()
             self._held.pop(name, None)
-            self._down_s += 0.0 if self._held else self._clock.now() - self._down_since
