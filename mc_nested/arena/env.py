@@ -5,6 +5,7 @@ In a scenario with parts, the index of the material to take in hand goes in besi
 """
 
 from collections.abc import Collection, Mapping
+from copy import deepcopy
 from typing import Any, TypedDict
 
 import gymnasium
@@ -15,8 +16,8 @@ from numpy.typing import NDArray
 
 from mc_nested.arena.action import Action, Cell
 from mc_nested.arena.drawing import draw_picture, draw_text
-from mc_nested.arena.game import Game, Resumable
-from mc_nested.arena.rules import cells_of, end_of_episode, grid_of
+from mc_nested.arena.game import Following, Game, Resumable
+from mc_nested.arena.rules import cells_of, end_of_episode, grid_of, landing, moved
 from mc_nested.arena.scenario import Scenario
 from mc_nested.arena.tally import THE_ARENA, tally_of
 from mc_nested.arrays import Arrays, Int64s
@@ -110,6 +111,7 @@ class ArenaEnv(gymnasium.Env[Observation, Any]):
         self._placed: set[Cell] = set()
         self._steps = 0
         self._running = False
+        self._following: Following | None = None
 
     @property
     def cell(self) -> Cell:
@@ -128,7 +130,7 @@ class ArenaEnv(gymnasium.Env[Observation, Any]):
         super().reset(seed=seed)
         name = (options or {}).get("material")
         self._material = self.scenario.best_material if name is None else self.scenario.material_index(name)
-        self._running = False
+        self._running, self._following = False, None
         self._cell = self.game.reset(self._material)
         self._placed = set()
         self._steps = 0
@@ -144,9 +146,9 @@ class ArenaEnv(gymnasium.Env[Observation, Any]):
         """
         if not self._running:
             raise ResetNeeded("the episode has ended, or none has begun: call reset() first")
-        wanted = self._taken_in_hand(action)
-        self._running = False
-        outcome = self.game.act(*wanted)
+        wanted, following = self._taken_in_hand(action), self._following
+        self._running, self._following = False, None
+        outcome = self.game.act(*wanted, following) if following else self.game.act(*wanted)
         self._cell = outcome.cell
         self._steps += 1
         if outcome.placed is not None:
@@ -159,6 +161,22 @@ class ArenaEnv(gymnasium.Env[Observation, Any]):
             info["placed"] = outcome.placed
         self._count(info, outcome.placed, reward)
         return self._observation(), reward, terminated, truncated, dict(info)
+
+    def expected(self, action: Any) -> tuple[Observation, bool, bool]:
+        """Return what a step shows by the rules, whether it goes on then, and whether a material is to be chosen."""
+        done, size = self._asked(action)[0], self.scenario.size
+        cell = moved(self._cell, done, self._placed, size)
+        landed = np.array([landing(cell, done, self._placed, size) is not None])
+        left = self._blocks_left - int(landed[0])
+        goes_on, chooses = not any(end_of_episode(left, self._steps + 1, self.scenario.step_limit)), False
+        if tally := deepcopy(self._tally):
+            tally.lay(landed, landed)
+            chooses = goes_on and bool(tally.chooses(THE_ARENA, landed)[0])
+        return np.array([*cell, left], dtype=np.int64), goes_on, chooses
+
+    def announce(self, following: Any | None) -> None:
+        """Say what the step after the next one will be, where that goes as the rules say: its game is told."""
+        self._following = None if following is None else self._asked(following)
 
     def render(self) -> Any:
         """Return the arena from above: (H, W, 3) RGB for "rgb_array", lines of text for "ansi"."""
@@ -186,13 +204,18 @@ class ArenaEnv(gymnasium.Env[Observation, Any]):
         if self.game.resumable:
             self.game.resumable.restore(snapshot)
 
-    def _taken_in_hand(self, action: Any) -> tuple[Action] | tuple[Action, int]:
-        """Return what the game is asked to do; the material is in hand from now on."""
+    def _asked(self, action: Any) -> Following:
+        """Return what ``step`` asks the game for."""
         if self._tally is None or np.ndim(action) == 0:
-            return (Action(int(action)),)
-        done, material = Action(int(action[0])), int(action[1])
-        self._tally.take(THE_ARENA, np.array([material]))
-        self._material = material
+            return Action(int(action)), None
+        return Action(int(action[0])), int(action[1])
+
+    def _taken_in_hand(self, action: Any) -> Following:
+        """Return what the game is asked to do; the material is in hand from now on."""
+        done, material = self._asked(action)
+        if self._tally and material is not None:
+            self._tally.take(THE_ARENA, np.array([material]))
+            self._material = material
         return done, material
 
     def _pays(self, placed: Cell | None) -> bool:

@@ -26,7 +26,7 @@ from mc_nested.arena.env import BLOCKS_LEFT, highest_observation, space_up_to
 from mc_nested.arena.game import Resumable
 from mc_nested.arena.scenario import Scenario
 from mc_nested.arena.tally import tally_of
-from mc_nested.arena.vector import NO_ACTION, reset_options, resumable_arenas
+from mc_nested.arena.vector import NO_ACTION, Foreseeing, foresees, reset_options, resumable_arenas
 from mc_nested.arrays import Arrays, Bools, Float64s, Int64s
 
 OWN = "single_of_"
@@ -47,6 +47,8 @@ class SingleAgentVectorEnv(VectorWrapper):
         runs = env.num_envs
         self._builders = builders
         self._resumable = resumable_arenas(env)
+        self.foresees = foresees(env)
+        self._within: Foreseeing = env  # type: ignore[assignment]  # asked only where it foresees
         self._scenarios = tuple(scenarios)
         self._tally = tally_of(scenarios)
         self._in_parts = np.array([bool(scenario.parts) for scenario in scenarios])
@@ -101,7 +103,7 @@ class SingleAgentVectorEnv(VectorWrapper):
             self._chosen[takes] = actions[takes] + 1
             self._tally.take(takes, actions)
         if acts.any():
-            observations, earned, terminated = self._step_within(acts, actions - self._materials)
+            observations, earned, terminated = self._step_within(acts, actions)
             seen = running & ~first  # where another builder acts, the blocks left change
             self._observations[seen] = observations[seen]
             rewards[acts] = earned[acts]
@@ -125,18 +127,31 @@ class SingleAgentVectorEnv(VectorWrapper):
         return within & (self._chosen > 0)[:, None, None]
 
     def _step_within(self, acts: Bools, actions: Int64s) -> tuple[Int64s, Float64s, Bools]:
-        """Do one of the eight actions in each of the masked arenas within.
+        """Do a building action in each of the masked arenas within.
 
         Return what they showed and earned, and which terminated.
         """
-        within = np.where(acts, actions, NO_ACTION)
-        if self._tally is None:
-            observations, earned, terminated, _, _ = self.env.step(within)
-            return observations, earned, terminated
-        observations, earned, terminated, _, _ = self.env.step(np.stack((within, self._tally.in_hand), axis=1))
-        landed = acts & (observations[:, BLOCKS_LEFT] < self._observations[:, BLOCKS_LEFT])
-        self._tally.lay(landed, landed & (earned > 0))
+        observations, earned, terminated, _, _ = self.env.step(self._taken_within(acts, actions))
+        if self._tally:
+            landed = acts & (observations[:, BLOCKS_LEFT] < self._observations[:, BLOCKS_LEFT])
+            self._tally.lay(landed, landed & (earned > 0))
         return observations, earned, terminated
+
+    def _taken_within(self, acts: Bools, actions: Int64s) -> Int64s:
+        """Return what the arenas within take of these actions, where the mask says so."""
+        within = np.where(acts, actions - self._materials, NO_ACTION)
+        return np.stack((within, self._tally.in_hand), axis=1) if self._tally else within
+
+    def expected(self, actions: Int64s) -> tuple[Int64s, Bools, Bools]:
+        """Return what a step will show by the rules, where it builds, and where it goes on; no choice is ever due."""
+        builds = (self._chosen > 0) & (actions >= self._materials)
+        observations, goes_on, _ = self._within.expected(self._taken_within(builds, actions))
+        seen = np.concatenate((observations, self._chosen[:, None]), axis=1)
+        return seen, goes_on & (self._steps + 1 < self._step_limit), np.zeros_like(builds)
+
+    def announce(self, following: Int64s) -> None:
+        """Announce what is to be built next; choosing a material is no action of the arenas within."""
+        self._within.announce(self._taken_within(following >= self._materials, following))
 
     @property
     def resumable(self) -> Resumable | None:

@@ -8,7 +8,7 @@ themselves, as Gymnasium's own vector envs do by default.
 """
 
 from collections.abc import Mapping, Sequence
-from typing import Any
+from typing import Any, Protocol
 
 import numpy as np
 from gymnasium.error import ResetNeeded
@@ -40,10 +40,26 @@ def resumable_arenas(env: VectorEnv[Int64s, Int64s, Any]) -> Resumable | None:
     return resumable
 
 
+class Foreseeing(Protocol):
+    """Arenas whose games are told what comes after a step, where it goes as the rules say (``ArenaEnv.announce``)."""
+
+    def expected(self, actions: Int64s) -> tuple[Int64s, Bools, Bools]:
+        """Return what a step will show by the rules, (R, ...), where it goes on then, and where a choice is due."""
+
+    def announce(self, following: Int64s) -> None:
+        """Say what the step after the next one will be, as ``step`` takes it; NO_ACTION where it isn't known."""
+
+
+def foresees(env: VectorEnv[Any, Int64s, Any]) -> bool:
+    """Return whether the arenas are Foreseeing: they say so themselves."""
+    return getattr(env, "foresees", False)
+
+
 class ArenaVectorEnv(VectorEnv[Int64s, Int64s, Any]):
     """Arenas of one scenario, each an ArenaEnv over its own game, stepped one after the other."""
 
     metadata = METADATA
+    foresees = True
 
     def __init__(self, envs: Sequence[ArenaEnv]) -> None:
         self.envs = tuple(envs)
@@ -115,7 +131,7 @@ class ArenaVectorEnv(VectorEnv[Int64s, Int64s, Any]):
             told |= {"earned": np.zeros(self.num_envs), "chooses": np.zeros(self.num_envs, dtype=np.bool_)}
         masks = {f"_{name}": np.zeros(self.num_envs, dtype=np.bool_) for name in told}
         acts, _ = taken_apart(actions, self.num_envs)
-        takes = np.asarray(actions) if self.scenario.parts else acts
+        takes = self._takes(actions)
         running = ~(self._terminated | self._truncated) & (acts != NO_ACTION)
         for run in np.flatnonzero(running):
             self._observations[run], rewards[run], self._terminated[run], self._truncated[run], info = self.envs[
@@ -125,6 +141,22 @@ class ArenaVectorEnv(VectorEnv[Int64s, Int64s, Any]):
                 told[name][run], masks[f"_{name}"][run] = info[name], True
         flags = self._terminated.copy(), self._truncated.copy()
         return self._observations.copy(), rewards, *flags, {**told, **masks}
+
+    def expected(self, actions: Int64s) -> tuple[Int64s, Bools, Bools]:
+        observations, chooses = self._observations.copy(), np.zeros(self.num_envs, dtype=np.bool_)
+        goes_on = ~(self._terminated | self._truncated) & (taken_apart(actions, self.num_envs)[0] != NO_ACTION)
+        for run in np.flatnonzero(goes_on):
+            observations[run], goes_on[run], chooses[run] = self.envs[run].expected(self._takes(actions)[run])
+        return observations, goes_on, chooses
+
+    def announce(self, following: Int64s) -> None:
+        known = taken_apart(following, self.num_envs)[0] != NO_ACTION
+        for run, takes in enumerate(self._takes(following)):
+            self.envs[run].announce(takes if known[run] else None)
+
+    def _takes(self, actions: Int64s) -> Int64s:
+        """Return what each Env takes of these actions."""
+        return np.asarray(actions) if self.scenario.parts else taken_apart(actions, self.num_envs)[0]
 
     def render(self) -> tuple[Any, ...] | None:
         """Return every arena as its Env draws it; None without a render mode."""

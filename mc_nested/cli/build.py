@@ -106,8 +106,10 @@ def _built(game: Game, scenario: Scenario, steps: Sequence[tuple[Action, int]], 
     with watched(env, scenario.name, viewing, quiet=quiet) as show:
         env.reset(options={"material": scenario.materials[steps[0][1]].name})
         show()
-        for step in steps:
-            env.step(step_in(scenario, *step))
+        taken = [step_in(scenario, *step) for step in steps]
+        for step, following in zip(taken, [*taken[1:], None], strict=True):
+            env.announce(following)
+            env.step(step)
             show()
     return len(env.placed & scenario.design)
 

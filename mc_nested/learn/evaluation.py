@@ -11,6 +11,7 @@ from gymnasium.vector import VectorEnv
 from mc_nested.arena.scenario import Scenario
 from mc_nested.arrays import Int64s
 from mc_nested.learn.agents import Agent
+from mc_nested.learn.foresight import announce
 from mc_nested.learn.learner import CHOICE_NUMBERS
 
 
@@ -56,6 +57,7 @@ def play_greedily(
     while running.any():
         actions = agent.act(agent.low_level_states(observations, materials), materials, never, of_builders)
         takes = np.stack((actions, materials), axis=1) if agent.main and has_parts else actions
+        announce(env, agent, takes, materials, never, of_builders, running)
         observations, _, terminated, truncated, info = env.step(takes)
         in_hand = materials if agent.main else agent.chosen_materials(observations[first])
         is_last, scores = info["_score"][first], info["score"][first]

@@ -75,6 +75,9 @@ class LearntGame(Practice):
         actions[runs] = self._imagination.act(runs, actions)
         return self._excursions.act(runs[self._broken[runs] > 0], observations, actions, numbers)
 
+    def is_settled(self, run: int) -> bool:
+        return self._broken[run] <= 0 and self._imagination.first_tries(run).are_over
+
     def learn(self, step: Step) -> None:
         self._imagination.observe(
             step.running.nonzero()[0],

@@ -100,6 +100,10 @@ class Practice:
         """Return all runs' actions; those of the named runs (k,) may differ from the ε-greedy ones that are given."""
         return actions
 
+    def is_settled(self, run: int) -> bool:  # noqa: ARG002
+        """Return whether that run's actions are the ε-greedy ones, of the networks as they are, until its end."""
+        return False
+
     def learn(self, step: Step) -> None:
         """Store the step of the runs that learn from it, and update."""
         agent, low_level, materials = self._agent, self._agent.low_level, step.materials

@@ -66,6 +66,7 @@ class Streams:
         """Return the numbers of that tick, (runs, width)."""
         chunk, within = divmod(tick, TICKS_A_CHUNK)
         if chunk != self._chunk:
+            self._numbers = np.empty_like(self._numbers)  # those of the last tick may still be in use
             for numbers, run in zip(self._numbers, self._runs, strict=True):
                 key = np.random.SeedSequence(self._seed, spawn_key=(run, TICKS, chunk))
                 np.random.Generator(np.random.PCG64(key)).random(out=numbers)

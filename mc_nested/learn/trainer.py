@@ -18,12 +18,13 @@ from numpy.typing import NDArray
 
 from mc_nested.arena.env import blank_observations
 from mc_nested.arena.scenario import Scenario
-from mc_nested.arena.vector import resumable_arenas
+from mc_nested.arena.vector import foresees, resumable_arenas
 from mc_nested.arrays import Arrays, Bools, Float64s, Int64s, named_for, part_of
 from mc_nested.learn.agents import Agent
 from mc_nested.learn.choices import ChoiceStep
 from mc_nested.learn.dqn.replay import ReplayMark
 from mc_nested.learn.episode_log import EvaluationRow
+from mc_nested.learn.foresight import announce
 from mc_nested.learn.imagination.background_practice import Background, BackgroundThread
 from mc_nested.learn.learner import CHOICE_NUMBERS
 from mc_nested.learn.practice import Practice, Step
@@ -102,9 +103,10 @@ class Trainer(Training):
         actions = self.agent.act(states, now.materials, self.epsilon[1] * training, choice)
         learning = training.nonzero()[0]  # a quarter of flatnonzero's time, which counts in every tick
         actions = self.practice.act(learning, now.observations, actions, practice)
-        observations, rewards, terminated, truncated, info = self._env.step(
-            self._choices.in_hand(actions, now.materials)
-        )
+        takes = self._choices.in_hand(actions, now.materials)
+        if foresees(self._env):
+            self._announce(takes, training)
+        observations, rewards, terminated, truncated, info = self._env.step(takes)
         first = self._first_builders
         ended, scores = (terminated | truncated)[first] & running, info["score"][first]
         due = info["chooses"] & ~ended if "chooses" in info else None
@@ -170,6 +172,12 @@ class Trainer(Training):
         self.practice.begin(runs, practice)
         now.steps_in_episode[runs] = 0
         now.between_episodes &= ~begins
+
+    def _announce(self, takes: Int64s, training: Bools) -> None:
+        """Announce what comes next in greedy episodes, and in those in which nothing is learnt on the way."""
+        known = np.array([not trains or self.practice.is_settled(run) for run, trains in enumerate(training)])
+        choice = self._streams.at(self.ticks + 1)[:, self._numbers[2]]
+        announce(self._env, self.agent, takes, self._episodes.materials, self.epsilon[1] * training, choice, known)
 
     def _reset(self, begins: Bools) -> None:
         builders = self.agent.builders

@@ -48,6 +48,24 @@ def check_game(game: Game, scenario: Scenario, actions: Sequence[Action], truth:
         assert [game.act(action) for action in actions[half:]] == said[half:], "a restored episode goes on as before"
 
 
+def check_following(game: Game, scenario: Scenario, actions: Sequence[Action], truth: Truth | None = None) -> None:
+    """Raise AssertionError where an action that is told what follows does anything but what the rules say.
+
+    One episode, after one that was abandoned while something was announced. A ``truth`` must agree at the end: until
+    then the agent may be on its way.
+    """
+    game.reset(scenario.best_material)
+    game.act(Action.BD, None, (Action.B, None))
+    cell, placed = game.reset(scenario.best_material), set[Cell]()
+    for action, then in zip(actions, [*actions, None][1:], strict=True):
+        cell = moved(cell, action, placed, scenario.size)
+        block = landing(cell, action, placed, scenario.size)
+        outcome = game.act(action, None, None if then is None else (then, None))
+        assert outcome == Outcome(cell, block), f"{action.name} does the same, whatever follows"
+        placed |= {block} if block else set()
+    assert truth is None or truth() == (cell, placed), "all was done that was said"
+
+
 Kinds = Callable[[], dict[Cell, str]]
 """The block, as the scenario names it, that each cell of the arena truly holds."""
 

@@ -5,6 +5,8 @@ import numpy as np
 import pytest
 from gymnasium.error import ResetNeeded
 from gymnasium.utils.env_checker import check_env
+from hypothesis import given
+from hypothesis import strategies as st
 
 from mc_nested.arena.action import Action
 from mc_nested.arena.builder import build
@@ -15,6 +17,8 @@ from mc_nested.arena.scenario import Scenario
 from mc_nested.arena.scenario_file import load_scenario
 from mc_nested.errors import LiveError, ScenarioError
 from sim.grid import GridGame, arena_env
+from tests.arena.made_games import TakesAtItsWord
+from tests.arena.made_parts import STONE, STRIPES, TO_FAR, WOOD, scenarios_with_parts
 
 
 @pytest.fixture
@@ -121,6 +125,76 @@ def test_an_env_needs_a_reset_after_its_game_failed() -> None:
         env.step(Action.B)
     env.reset()
     assert env.step(Action.B)[0].tolist() == [7, 13, 11]
+
+
+steps_and_materials = st.lists(st.tuples(st.sampled_from(Action), st.integers(0, 1)), max_size=40)
+
+
+@given(scenarios_with_parts(), steps_and_materials)
+def test_what_is_expected_of_a_step_is_what_it_shows_by_the_rules(
+    scenario: Scenario, steps: list[tuple[Action, int]]
+) -> None:
+    env = arena_env(scenario)
+    env.reset()
+    for step in steps:
+        observation, goes_on, chooses = env.expected(step)
+        assert env.expected(step)[2] == chooses, "asking changes nothing"
+        shown, _, terminated, truncated, info = env.step(step)
+        assert (shown.tolist(), not (terminated or truncated), info["chooses"]) == (
+            observation.tolist(),
+            goes_on,
+            chooses,
+        )
+        if not goes_on:
+            break
+
+
+def test_what_is_expected_is_reckoned_by_hand() -> None:
+    env = arena_env(STRIPES)
+    env.reset()
+    (first, goes_on, chooses), _ = env.expected((TO_FAR[0], STONE)), env.step((TO_FAR[0], STONE))
+    assert (first.tolist(), goes_on, chooses) == ([1, 2, 4], True, False)
+    second, goes_on, chooses = env.expected((TO_FAR[1], STONE))
+    assert (second.tolist(), goes_on, chooses) == ([2, 2, 3], True, True)  # the first part is done
+
+
+def test_the_game_is_told_once_what_follows_with_the_material_that_will_be_passed() -> None:
+    game = TakesAtItsWord(STRIPES)
+    env = ArenaEnv(game, STRIPES)
+    env.reset()
+    env.announce((Action.RD, WOOD))
+    env.step((Action.FD, STONE))
+    env.announce(np.int64(Action.B))  # without a material the one in hand stays there
+    env.step((Action.RD, WOOD))
+    env.step(Action.B)
+    assert game.told == [(Action.RD, WOOD), (Action.B, None), None]
+
+
+def test_what_was_announced_is_forgotten_with_the_episode() -> None:
+    game = TakesAtItsWord(STRIPES)
+    env = ArenaEnv(game, STRIPES)
+    env.reset()
+    env.announce(Action.B)
+    env.reset()
+    env.step(Action.L)
+    assert game.following is None
+
+
+class KnowsNothingOfIt(GridGame):
+    """A game whose act takes an action and a material alone."""
+
+    def act(self, action: Action, material: int | None = None) -> Outcome:  # type: ignore[override]  # that's the point
+        return super().act(action, material)
+
+
+def test_where_nothing_is_announced_the_game_is_told_nothing() -> None:
+    line = load_scenario("line")
+    env = ArenaEnv(KnowsNothingOfIt(line), line)  # type: ignore[arg-type]  # as above
+    env.reset()
+    assert env.step(Action.B)[0].tolist() == [7, 13, 11]
+    env.announce(Action.B)
+    with pytest.raises(TypeError):
+        env.step(Action.B)
 
 
 def test_the_text_shows_agent_blocks_and_design() -> None:

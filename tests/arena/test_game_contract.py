@@ -15,7 +15,7 @@ from mc_nested.arena.game import Following, Outcome
 from mc_nested.arena.scenario import Scenario
 from mc_nested.arena.scenario_file import load_scenario
 from sim.grid import GridGame
-from tests.arena.game_contract import BUMPS, check_game, check_materials
+from tests.arena.game_contract import BUMPS, check_following, check_game, check_materials
 from tests.arena.made_parts import STRIPES, TO_FAR, TO_NEAR
 
 LINE = load_scenario("line")
@@ -74,6 +74,11 @@ class WalksOutOfTheArena(GridGame):
         outcome = super().act(action, material, following)
         x, y = outcome.cell
         return Outcome((x - (x == 0 and action is Action.L), y), outcome.placed)
+
+
+class DoesWhatFollows(GridGame):
+    def act(self, action: Action, material: int | None = None, following: Following | None = None) -> Outcome:
+        return super().act(following[0] if following else action, material)
 
 
 class ForgetsItsBlocks(GridGame):
@@ -153,6 +158,16 @@ def test_the_simulator_passes_the_contract() -> None:
 @given(st.lists(st.sampled_from(Action), max_size=80))
 def test_the_simulator_passes_the_contract_over_any_actions(actions: list[Action]) -> None:
     check_game(GridGame(LINE), LINE, actions)
+
+
+@given(st.lists(st.sampled_from(Action), max_size=80))
+def test_the_simulator_does_the_same_whatever_follows(actions: list[Action]) -> None:
+    check_following(GridGame(LINE), LINE, actions)
+
+
+def test_a_game_that_does_what_only_follows_fails_the_contract() -> None:
+    with pytest.raises(AssertionError, match="does the same, whatever follows"):
+        check_following(DoesWhatFollows(LINE), LINE, BUMPS)
 
 
 LIARS = [

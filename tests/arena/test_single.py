@@ -9,16 +9,47 @@ from mc_nested.arena.action import Action
 from mc_nested.arena.builder import build
 from mc_nested.arena.cooperative.team import team_of
 from mc_nested.arena.cooperative.team_env import TeamVectorEnv
+from mc_nested.arena.env import ArenaEnv
 from mc_nested.arena.scenario import Scenario
 from mc_nested.arena.scenario_file import load_scenario
 from mc_nested.arena.single import SingleAgentVectorEnv
 from mc_nested.arena.vector import ArenaVectorEnv
 from sim.grid import GridVectorEnv, arena_env
 from sim.team_grid import TeamGrid
+from tests.arena.made_games import TakesAtItsWord
 from tests.arena.made_parts import STRIPES, scenarios_with_parts
 
 LINE = load_scenario("line")
 WOOD, STONE, FIRST_MOVE = 0, 1, 2
+
+
+@given(scenarios_with_parts() | st.just(LINE), st.lists(st.integers(0, 9), max_size=40))
+def test_what_is_expected_where_it_builds_is_what_it_shows_by_the_rules(scenario: Scenario, steps: list[int]) -> None:
+    env = SingleAgentVectorEnv(ArenaVectorEnv([arena_env(scenario)]), [scenario])
+    env.reset()
+    for step, action in enumerate(steps):
+        expected, (goes_on,), (chooses,) = env.expected(np.array([action]))
+        shown, _, (terminated,), (truncated,), _ = env.step(np.array([action]))
+        builds = step > 0 and action >= len(scenario.materials)
+        assert goes_on == (builds and not (terminated or truncated))
+        assert not chooses
+        if builds:
+            assert expected.tolist() == shown.tolist()
+        if terminated or truncated:
+            break
+
+
+def test_the_game_is_told_what_is_built_next_with_the_material_in_hand() -> None:
+    game = TakesAtItsWord(STRIPES)
+    env = SingleAgentVectorEnv(ArenaVectorEnv([ArenaEnv(game, STRIPES)]), [STRIPES])
+    env.reset()
+    first, second = FIRST_MOVE + Action.FD, FIRST_MOVE + Action.RD
+    env.step(np.array([STONE]))
+    env.announce(np.array([second]))
+    env.step(np.array([first]))
+    env.announce(np.array([WOOD]))  # which the arena within isn't asked for
+    env.step(np.array([second]))
+    assert game.told == [(Action.RD, STONE), None]
 
 
 def single(runs: int = 1) -> SingleAgentVectorEnv:

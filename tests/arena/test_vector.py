@@ -14,11 +14,13 @@ from mc_nested.arena.action import Action
 from mc_nested.arena.builder import build
 from mc_nested.arena.env import ArenaEnv
 from mc_nested.arena.game import Game
+from mc_nested.arena.planes import PlanesVectorEnv
 from mc_nested.arena.scenario_file import load_scenario
 from mc_nested.arena.single import SingleAgentVectorEnv
-from mc_nested.arena.vector import ArenaVectorEnv, NextStepAutoreset, resumable_arenas
+from mc_nested.arena.vector import NO_ACTION, ArenaVectorEnv, NextStepAutoreset, foresees, resumable_arenas
 from mc_nested.errors import ScenarioError
 from sim.grid import GridGame, GridVectorEnv, arena_env
+from tests.arena.made_games import TakesAtItsWord
 from tests.learn.made_trainings import StartsOver
 
 LINE = load_scenario("line")
@@ -35,6 +37,42 @@ def test_arenas_can_be_resumed_if_every_game_can() -> None:
     assert resumable_arenas(SingleAgentVectorEnv(one, [LINE] * 2)) is None
     single = SingleAgentVectorEnv(both, [LINE] * 2)
     assert resumable_arenas(single) is single
+
+
+def test_games_are_told_what_comes_next_where_the_arenas_can_know_it() -> None:
+    played, simulated = arenas(GridGame(LINE)), GridVectorEnv([LINE])
+    assert foresees(played)
+    assert foresees(SingleAgentVectorEnv(played, [LINE]))
+    assert not foresees(simulated)
+    assert not foresees(SingleAgentVectorEnv(simulated, [LINE]))
+    assert not foresees(PlanesVectorEnv(played, [LINE]))
+
+
+@given(st.lists(st.tuples(*[st.integers(NO_ACTION, 7)] * 2), max_size=70))
+def test_what_is_expected_of_two_arenas_is_what_they_show_by_the_rules(steps: list[tuple[int, int]]) -> None:
+    env = arenas(GridGame(LINE), GridGame(LINE))
+    env.reset()
+    has_ended = np.zeros(2, np.bool_)
+    for step in steps:
+        actions = np.array(step)
+        observations, goes_on, chooses = env.expected(actions)
+        shown, _, terminated, truncated, _ = env.step(actions)
+        np.testing.assert_array_equal(observations, shown)
+        acts = (actions != NO_ACTION) & ~has_ended
+        has_ended = terminated | truncated
+        np.testing.assert_array_equal(goes_on, acts & ~has_ended)
+        assert not chooses.any()
+
+
+def test_each_arena_is_told_what_follows_there() -> None:
+    games = TakesAtItsWord(LINE), TakesAtItsWord(LINE)
+    env = arenas(*games)
+    env.reset()
+    env.announce(np.array([Action.L, NO_ACTION]))
+    env.step(np.array([Action.B, Action.B]))
+    assert [game.following for game in games] == [(Action.L, None), None]
+    env.step(np.array([Action.L, Action.R]))
+    assert [game.kept for game in games] == [1, 0]
 
 
 def test_a_restored_episode_continues_to_its_end_as_before() -> None:

@@ -9,7 +9,7 @@ import pytest
 
 import sim.worlds
 from mc_nested.arena.scenario import Scenario
-from mc_nested.arena.scenario_file import load_scenario
+from mc_nested.arena.scenario_file import load_scenario, shipped_scenarios
 from mc_nested.cli.build import build
 from mc_nested.cli.output import json_fields
 from mc_nested.errors import LiveError, NotInFrontError, StoppedError
@@ -19,6 +19,7 @@ from mc_nested.live.profile.arena import Arena
 from mc_nested.live.profile.store import save_profile
 from mc_nested.live.profile.tables import Profile, WorldTable
 from sim.client.client import VirtualClient
+from tests.arena.made_games import TakesAtItsWord
 from tests.cli.fragile_game import open_live
 from tests.cli.running import run
 from tests.design_files.written import HUT, picture, sponge
@@ -43,6 +44,25 @@ def test_a_shipped_design_is_built_of_the_best_material_and_shown(capsys: pytest
     assert "diamond: 16 of 16 blocks on the design" in printed.out
     assert printed.out.splitlines()[-1] == "  built 16 of 16 blocks, of stone, in 52 steps"
     assert printed.err == ""
+
+
+@pytest.mark.parametrize("material", [None, "wood"])
+@pytest.mark.parametrize("name", shipped_scenarios())
+def test_each_action_of_a_shipped_design_is_announced_with_its_material(
+    name: str, material: str | None, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    games: list[TakesAtItsWord] = []
+
+    def opened(scenario: Scenario) -> TakesAtItsWord:
+        games.append(TakesAtItsWord(scenario))
+        return games[-1]
+
+    monkeypatch.setattr(sim.worlds, "GridGame", opened)
+    assert run("build", name, *(["--material", material] if material else [])) == 0
+    (game,) = games
+    assert f"in {game.acts} steps" in capsys.readouterr().out
+    assert game.kept == game.acts - 1
+    assert game.following is None
 
 
 def test_a_layer_of_a_schematic_is_built_of_the_material_that_is_named(

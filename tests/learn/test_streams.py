@@ -22,6 +22,14 @@ def test_a_ticks_numbers_do_not_depend_on_the_ticks_before() -> None:
         np.testing.assert_array_equal(jumping.at(tick), walked[tick])
 
 
+def test_a_ticks_numbers_stay_when_those_of_the_next_one_are_drawn() -> None:
+    streams = Streams(7, runs=[0], width=5)
+    last = streams.at(TICKS_A_CHUNK - 1)
+    kept = last.copy()
+    streams.at(TICKS_A_CHUNK)
+    np.testing.assert_array_equal(last, kept)
+
+
 def test_a_runs_numbers_do_not_depend_on_the_runs_beside_it() -> None:
     alone, beside = Streams(7, runs=[5], width=5), Streams(7, runs=range(3, 9), width=5)
     for tick in TICKS:

@@ -24,7 +24,7 @@ from mc_nested.live.menus.reset import reset_commands
 from mc_nested.live.model.coordinates import Facing
 from mc_nested.live.profile.arena import Arena
 from mc_nested.live.profile.tables import GameVersion, Profile, WorldTable
-from tests.arena.game_contract import BUMPS, check_game, check_materials
+from tests.arena.game_contract import BUMPS, check_following, check_game, check_materials
 from tests.live.fake_game import FakeDisplay, FakeGame, FakeScreen, connection_to, devices_of
 
 LINE, FLAG = load_scenario("line"), load_scenario("flag")
@@ -120,6 +120,7 @@ def test_no_key_stays_down_or_goes_to_another_window_whatever_happens(
 def test_a_live_game_keeps_the_game_contract(facing: Facing) -> None:
     world = _world(facing)
     check_game(_play(world), LINE, [*BUMPS, *build(LINE)])
+    check_following(_play(_world(facing)), LINE, [*BUMPS, *build(LINE)])
     assert world.down == set()
 
 

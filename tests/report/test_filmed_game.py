@@ -11,7 +11,7 @@ from mc_nested.report.arena_picture import Moment, beside, box_for, draw_moment
 from mc_nested.report.film import Film
 from mc_nested.report.filmed_game import FIRST_S, STEP_S, FilmedGame, Window
 from sim.grid import GridGame
-from tests.arena.game_contract import BUMPS, check_game
+from tests.arena.game_contract import BUMPS, check_following, check_game
 from tests.report.films import flat
 
 LINE = load_scenario("line")
@@ -48,6 +48,7 @@ def begun() -> tuple[NotedFilm, FilmedGame]:
 
 def test_a_filmed_game_behaves_as_the_game_itself() -> None:
     check_game(FilmedGame(GridGame(LINE), LINE, NotedFilm()), LINE, [*BUMPS, *build(LINE)])
+    check_following(FilmedGame(GridGame(LINE), LINE, NotedFilm()), LINE, [*BUMPS, *build(LINE)])
 
 
 def test_the_film_shows_the_start_and_every_step() -> None:

@@ -7,6 +7,7 @@ from gymnasium.vector import VectorEnv
 
 from mc_nested.arrays import Int64s
 from mc_nested.learn.agents import Agent
+from mc_nested.learn.foresight import announce
 from mc_nested.learn.games.episode import EpisodePlan, PlayedEpisode
 from mc_nested.learn.imagination.experience import Experience, RealStep
 from mc_nested.learn.learner import CHOICE_NUMBERS
@@ -23,17 +24,18 @@ def play_episode(arena: VectorEnv[Any, Int64s, Any], plan: EpisodePlan, agent: A
     low_level = agent.low_level
     low_level.engine.load_online(np.tile(plan.online, (low_level.states.rows, 1)))
     materials, epsilon = np.array([plan.material]), np.array([plan.epsilon])
-    unused = np.ones((1, CHOICE_NUMBERS))
+    numbers = plan.numbers if len(plan.numbers) else np.ones((1, CHOICE_NUMBERS))
     tries, seen = plan.first_tries.copied() if plan.first_tries else None, Experience()
     seen.begin()
     before, _ = arena.reset(options={"material": materials})
     observations, actions, rewards = [before[0]], list[int](), list[float]()
     is_over = False
     while not is_over:
-        numbers = plan.numbers[[len(actions)]] if len(plan.numbers) else unused
-        chosen = agent.act(agent.low_level_states(before, materials), materials, epsilon, numbers)
+        now, then = numbers.take([[len(actions)], [len(actions) + 1]], axis=0, mode="clip")
+        chosen = agent.act(agent.low_level_states(before, materials), materials, epsilon, now)
         if tries:
             chosen = np.array([tries.act(int(chosen[0]), seen.tried_here())])
+        announce(arena, agent, chosen, materials, epsilon, then, np.array([not tries or tries.are_over]))
         after, earned, terminated, truncated, info = arena.step(chosen)
         action, reward = int(chosen[0]), float(earned[0])
         if tries:

@@ -40,15 +40,20 @@ class FirstTries:
         would be stopped for ever. So is one whose move may be a slip. Once all cells are known, it is tried where
         practice fell short of building them all. ``tried_here`` were done in this episode in the agent's cell.
         """
-        untried = self._open()
-        if not untried.any() or not (self.explores or self.falls_short):
+        if self.are_over:
             return action
+        untried = self._open()
         if self.is_stuck:  # each cell is left by its actions in turn, which comes to every cell that can be reached
             here = list(tried_here)
             return min(range(len(self.tries)), key=lambda each: (here.count(each), self.tries[each]))
         untried[list(tried_here)] = False
         tries = np.where(untried, self.tries, np.iinfo(np.int64).max)
         return int(tries.argmin()) if tries.min() <= FIRST_TRIES * self.tries.sum() else action
+
+    @property
+    def are_over(self) -> bool:
+        """Whether ``act`` does the policy's action from now on, until the next practice."""
+        return not (self._open().any() and (self.explores or self.falls_short))
 
     def observe(self, action: int, moved: bool, tried_here: Collection[int]) -> None:
         """Count an action that was done, and whether it moved the agent; ``tried_here`` as for ``act``, before it."""

@@ -142,7 +142,9 @@ class _Player:
                     self._pass_by(call)
                     continue
                 self.seen.actions += 1
-                self._call(partial(game.act, Action(call[2]["action"]), call[2].get("material")))
+                facts = call[2]
+                following = (Action(then[0]), then[1]) if (then := facts.get("following")) else None
+                self._call(partial(game.act, Action(facts["action"]), facts.get("material"), following))
                 self.seen.followed += 1
                 self._on_progress(self.seen)
         except OtherCall as other:

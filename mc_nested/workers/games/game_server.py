@@ -9,6 +9,7 @@ from gymnasium.vector import VectorEnv
 from gymnasium.vector.vector_env import VectorWrapper
 
 from mc_nested.arena.game import PlayLog
+from mc_nested.arena.vector import foresees
 from mc_nested.arrays import Int64s
 from mc_nested.errors import DesktopError, LiveError, NotInFrontError, UserError
 from mc_nested.learn.agents import Agent
@@ -150,6 +151,8 @@ class _WantedArena(VectorWrapper):
     def __init__(self, arena: VectorEnv[Any, Int64s, Any], is_wanted: Callable[[], bool]) -> None:
         super().__init__(arena)
         self._is_wanted = is_wanted
+        if foresees(arena):
+            self.foresees, self.expected, self.announce = True, arena.expected, arena.announce  # type: ignore[attr-defined]  # it has them
 
     def reset(self, *, seed: Any = None, options: dict[str, Any] | None = None) -> Any:
         self._check_wanted()

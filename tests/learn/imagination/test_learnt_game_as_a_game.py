@@ -14,7 +14,7 @@ from mc_nested.learn.imagination.arena_step import NOWHERE, ImaginedArena, cell_
 from mc_nested.learn.imagination.beliefs import believe
 from mc_nested.learn.imagination.learnt_rules import learn_rules
 from sim.grid import GridGame
-from tests.arena.game_contract import BUMPS, check_game
+from tests.arena.game_contract import BUMPS, check_following, check_game
 from tests.learn.imagination import made_games
 from tests.learn.imagination.made_games import BENT, TRUE_MOVES, TRUE_PLACES, MadeUpGame, Slipping, seen_at_random
 
@@ -55,6 +55,7 @@ TAUGHT = imagined(GridGame(LINE), LINE, 20)
 def test_a_learnt_game_of_the_real_rules_passes_the_game_contract() -> None:
     check_game(TAUGHT, LINE, BUMPS)
     check_game(TAUGHT, LINE, build(LINE))
+    check_following(TAUGHT, LINE, build(LINE))
 
 
 @given(st.lists(st.sampled_from(Action), max_size=80))

@@ -7,6 +7,7 @@ import numpy as np
 import tomlkit
 
 from mc_nested.arena.action import Action
+from mc_nested.arena.game import Following
 from mc_nested.arena.scenario import Scenario
 from mc_nested.arena.scenario_file import load_scenario, table_of
 from mc_nested.errors import LiveError
@@ -35,10 +36,25 @@ def scenario_facts(scenario: Scenario) -> dict[str, str]:
     return {"scenario": tomlkit.dumps(table_of(scenario).model_dump(exclude_none=True))}
 
 
+def drawn(rng: np.random.Generator, scenario: Scenario) -> Following:
+    """Return a random action; in a scenario with parts, with a random material."""
+    action = Action(int(rng.integers(8)))
+    return action, int(rng.integers(len(scenario.materials))) if scenario.parts else None
+
+
 def record_play(
-    folder: Path, actions: int, client: VirtualClient | None = None, seed: int = 0, scenario_name: str = "diamond"
+    folder: Path,
+    actions: int,
+    client: VirtualClient | None = None,
+    seed: int = 0,
+    scenario_name: str = "diamond",
+    *,
+    is_told: bool = False,
 ) -> list[LiveError]:
-    """Record random actions into a folder, and return the errors of those that failed."""
+    """Record random actions into a folder, and return the errors of those that failed.
+
+    With ``is_told`` each is announced beside the one before it.
+    """
     client = client or VirtualClient(seed=seed)
     scenario = load_scenario(scenario_name)
     arena = Arena.around((-20, client.realm.world.floor, 31), "south")
@@ -58,14 +74,16 @@ def record_play(
             done = 0
             for episode in itertools.count():
                 game.reset(episode % len(scenario.materials))
-                for _ in range(STEPS_AN_EPISODE):
+                now = drawn(rng, scenario)
+                for left in reversed(range(min(STEPS_AN_EPISODE, actions - done))):
+                    then = drawn(rng, scenario) if left else None
                     try:
-                        action = Action(int(rng.integers(8)))
-                        game.act(action, int(rng.integers(len(scenario.materials))) if scenario.parts else None)
+                        game.act(*now, then if is_told else None)
                     except LiveError as error:
                         failed.append(error)
                         break
                     done += 1
+                    now = then or now
                     if done == actions:
                         return failed
     return failed

@@ -125,6 +125,33 @@ def test_a_replay_follows_a_run_with_two_materials(tmp_path: Path) -> None:
     assert (seen.actions, seen.followed, seen.differences) == (12, 12, [])
 
 
+def test_a_replay_follows_a_run_in_which_each_action_was_announced(tmp_path: Path) -> None:
+    folder = tmp_path / "play"
+    assert record_play(folder, 60, seed=5, is_told=True) == []
+    acts = [call.call[2] for call in calls_of(folder) if call.call[:2] == ["note", "acts"]]
+    assert sum("following" in facts for facts in acts) == 57  # all but the last one of each episode
+    seen = replay(folder, FONT)
+    assert (seen.actions, seen.followed, seen.differences, seen.damaged) == (60, 60, [], [])
+
+
+def test_a_replay_that_forgets_what_was_announced_differs(tmp_path: Path) -> None:
+    record_play(tmp_path / "play", 25, seed=5, is_told=True)
+    calls = calls_of(tmp_path / "play")
+    for each in calls:
+        if each.call[:2] == ["note", "acts"]:
+            each.call[2].pop("following", None)
+    pictures = [each for each in read_recording(tmp_path / "play") if isinstance(each, KeptPicture)]
+    facts = dict(facts_of(tmp_path / "play"))
+    seen = replay(written(tmp_path / "forgets.mcap", calls, facts, pictures), FONT)
+    assert [each.kind for each in seen.differences] == ["decision"]
+
+
+def test_a_replay_follows_a_told_run_with_two_materials(tmp_path: Path) -> None:
+    record_play(tmp_path / "flag", 24, scenario_name="flag", is_told=True)
+    seen = replay(tmp_path / "flag", FONT)
+    assert (seen.actions, seen.followed, seen.differences) == (24, 24, [])
+
+
 def test_a_replay_follows_an_episode_with_mishaps(tmp_path: Path) -> None:
     client = VirtualClient(seed=2)
     client.mishaps.plan("pause", 1.5)

@@ -25,7 +25,7 @@ from sim.client.client import VirtualClient
 from sim.client.drawing.painter import SEEN
 from sim.client.game.debug_entries import GAME_DEFAULT
 from sim.client.mishaps import KINDS
-from tests.arena.game_contract import BUMPS, check_game, check_materials
+from tests.arena.game_contract import BUMPS, check_following, check_game, check_materials
 from tests.sim.client.playing import FONT, SOON_S, TAP_S, arena_of, connection_to, play, read
 
 LINE, FLAG = load_scenario("line"), load_scenario("flag")
@@ -101,6 +101,44 @@ def test_a_live_game_on_the_virtual_client_keeps_the_game_contract(facing: Facin
     with play(client, LINE, facing) as game:
         arena = arena_of(client, facing)
         check_game(game, LINE, [*BUMPS, *build(LINE)], lambda: (client.cell(arena), client.placed(arena)))
+
+
+@pytest.mark.parametrize("facing", ["south", "west"])
+def test_a_live_game_on_the_virtual_client_does_the_same_whatever_follows(facing: Facing) -> None:
+    client = VirtualClient(seed=3)
+    with play(client, LINE, facing) as game:
+        arena = arena_of(client, facing)
+        check_following(game, LINE, [*BUMPS, *build(LINE)], lambda: (client.cell(arena), client.placed(arena)))
+    assert client.window.down == set()
+    assert client.window.strays == []
+
+
+def test_a_live_game_refuses_another_action_than_the_one_whose_walk_has_begun() -> None:
+    client, actions = VirtualClient(seed=3), build(LINE)
+    with play(client, LINE) as game:
+        game.reset(LINE.best_material)
+        told = itertools.pairwise(actions)
+        while not game._body.is_under_way:  # the first ones show when the game's ticks are
+            action, then = next(told)
+            game.act(action, None, (then, None))
+        assert "s" in client.window.down
+        with pytest.raises(ValueError, match="was announced as the action that follows"):
+            game.act(Action.L)
+        assert client.window.down == set()
+        with pytest.raises(LiveError, match="must be reset first"):
+            game.act(then)
+        game.reset(LINE.best_material)
+        assert game.act(Action.L).cell == (6, 14)
+    assert client.window.strays == []
+
+
+def test_a_live_game_takes_any_action_where_no_walk_has_begun() -> None:
+    client = VirtualClient(seed=3)
+    with play(client, LINE) as game:
+        game.reset(LINE.best_material)
+        game.act(Action.B, None, (Action.B, None))  # when the game's ticks are isn't known yet
+        assert not game._body.is_under_way
+        assert game.act(Action.L).cell == (6, 13)
 
 
 @pytest.mark.slow

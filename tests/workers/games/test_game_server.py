@@ -3,12 +3,13 @@
 from collections.abc import Callable, Iterator
 from concurrent.futures import Future
 from contextlib import contextmanager
+from dataclasses import replace
 from typing import Any
 
 import pytest
 
 from mc_nested.arena.env import ArenaEnv
-from mc_nested.arena.vector import ArenaVectorEnv
+from mc_nested.arena.vector import NO_ACTION, ArenaVectorEnv
 from mc_nested.errors import DesktopError, LiveError, NotConfirmedError, ProfileError, StoppedError
 from mc_nested.learn.games.episode import EpisodePlan
 from mc_nested.workers.games.game_server import GameServer, OpenGame
@@ -35,6 +36,7 @@ class Served:
         self.looks = iter(range(0))
         """How often it looks for another request before it is ended."""
         self.opening_error: Exception | None = None
+        self.announced: list[int] = []
         self.down: set[str] = {"unknown"}
         """What is held down in the client's window: keys and buttons."""
 
@@ -55,6 +57,13 @@ class Served:
                     return step(actions)
 
                 arena.step = watched  # type: ignore[method-assign]
+                announce = arena.announce
+
+                def noted(following: Any) -> None:
+                    self.announced += following.tolist()
+                    announce(following)
+
+                arena.announce = noted  # type: ignore[method-assign]
                 yield OpenGame(arena, VirtualPlay([game]), lambda: self.is_in_front, self.check_stopped)
         finally:
             self.closed += 1
@@ -91,6 +100,13 @@ def test_an_episode_is_played_as_it_was_planned(served: Served) -> None:
     assert answer.log["game_s"][0] > 0
     assert served.said == ["episode 1 of dot", f"episode 1: score {answer.episode.score:g} of 11"]
     assert served.closed == 1
+
+
+def test_a_served_game_is_told_what_comes_next(served: Served) -> None:
+    plan = replace(PLAN, first_tries=None)
+    (answer,) = served.ask(plan)
+    assert answer.episode
+    assert served.announced == [*answer.episode.actions[1:].tolist(), NO_ACTION]
 
 
 def test_game_asked_without_a_plan_answers_that_it_is_ready(served: Served) -> None:
