@@ -45,15 +45,14 @@ class CoastingState:
     @property
     def end(self) -> GroundVector:
         """The position at which the walker stops."""
-        axes = zip(self.position, self.velocity, strict=True)
-        right, forward = (coasted(*axis, self.inertia)[-1][0] for axis in axes)
-        return GroundVector(right, forward)
+        (x, y), (x_speed, y_speed), inertia = self.position, self.velocity, self.inertia
+        return GroundVector(coasted(x, x_speed, inertia)[-1][0], coasted(y, y_speed, inertia)[-1][0])
 
     def ticked(self, push: GroundVector) -> "CoastingState":
         """Return the state a tick later; ``push`` is what the keys that are down add to its step."""
-        axes = zip(self.position, self.velocity, push, strict=True)
-        position, velocity = zip(*(ticked(*axis, self.inertia) for axis in axes), strict=True)
-        return CoastingState(GroundVector(*position), GroundVector(*velocity), self.inertia)
+        (x, y), (x_speed, y_speed), inertia = self.position, self.velocity, self.inertia
+        (x, x_speed), (y, y_speed) = ticked(x, x_speed, push.right, inertia), ticked(y, y_speed, push.forward, inertia)
+        return CoastingState(GroundVector(x, y), GroundVector(x_speed, y_speed), inertia)
 
 
 @dataclass(frozen=True)
