@@ -4,7 +4,6 @@ In each tick the velocity becomes 0 if it is below the standstill, and grows by 
 by it, and it is multiplied by the inertia.
 """
 
-import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Literal
@@ -35,56 +34,47 @@ class HoldPlan:
     ticks: int
 
 
-def step_of(velocity: float, push: float = 0.0) -> float:
-    """Return the blocks that a walker moves in its next tick; ``push`` is what a held key adds, 0 with every key up."""
-    return (velocity if abs(velocity) >= STANDSTILL else 0.0) + push
+def ticked(position: float, velocity: float, push: float, inertia: float) -> tuple[float, float]:
+    """Return a walker's position and velocity a tick later; ``push`` is what a held key adds, 0 with every key up."""
+    step = (velocity if abs(velocity) >= STANDSTILL else 0.0) + push
+    return position + step, step * inertia
+
+
+def held(
+    ticks: int, push: float, inertia: float, position: float = 0.0, velocity: float = 0.0
+) -> list[tuple[float, float]]:
+    """Return the positions and velocities before the first and after each of so many ticks with the key down."""
+    states = [(position, velocity)]
+    for _ in range(ticks):
+        states.append(ticked(*states[-1], push, inertia))
+    return states
+
+
+def coasted(position: float, velocity: float, inertia: float) -> list[tuple[float, float]]:
+    """Return the positions and velocities before the first and after each tick with every key up, until standstill."""
+    states = [(position, velocity)]
+    while abs(velocity) >= STANDSTILL:
+        position, velocity = position + velocity, velocity * inertia
+        states.append((position, velocity))
+    return states
 
 
 def hold_path(ticks: int, push: float = PUSH, inertia: float = INERTIA) -> tuple[float, ...]:
     """Return the position after each tick of a hold of ``ticks`` ticks from rest, in blocks, until standstill."""
-    positions, velocities = _held(ticks, push, inertia)
-    return (*positions, *_coasted(positions[-1], velocities[-1], inertia))
+    states = held(ticks, push, inertia)
+    return tuple(position for position, _ in states[:-1] + coasted(*states[-1], inertia))
 
 
 def hold_paths(most: int, push: float, inertia: float) -> list[tuple[float, ...]]:
     """Return the paths of the holds of 0 to ``most`` ticks, each as of ``hold_path``."""
-    positions, velocities = _held(most, push, inertia)
-    return [
-        (*positions[: ticks + 1], *_coasted(positions[ticks], velocities[ticks], inertia)) for ticks in range(most + 1)
-    ]
-
-
-def _held(ticks: int, push: float, inertia: float) -> tuple[list[float], list[float]]:
-    """Return the positions and velocities before the first and after each of so many ticks with the key down."""
-    positions, velocities = [0.0], [0.0]
-    for _ in range(ticks):
-        step = step_of(velocities[-1], push)
-        positions.append(positions[-1] + step)
-        velocities.append(step * inertia)
-    return positions, velocities
-
-
-def _coasted(position: float, velocity: float, inertia: float) -> list[float]:
-    """Return the positions after each tick with the key up, until standstill."""
-    positions = []
-    while velocity >= STANDSTILL:
-        position, velocity = position + velocity, velocity * inertia
-        positions.append(position)
-    return positions
+    states = held(most, push, inertia)
+    paths = [states[:ticks] + coasted(*state, inertia) for ticks, state in enumerate(states)]
+    return [tuple(position for position, _ in path) for path in paths]
 
 
 def displacement(ticks: int, inertia: float = INERTIA) -> float:
     """Return the blocks covered by holding a key for ``ticks`` ticks from rest, then coasting; the push is stone's."""
     return hold_path(ticks, PUSH, inertia)[-1]
-
-
-def coasting_distance(velocity: float, inertia: float = INERTIA) -> float:
-    """Return the blocks that a walker with this velocity still covers until it stops, with every key up."""
-    if abs(velocity) < STANDSTILL:
-        return 0.0
-    # The steps shrink to the first one below the standstill, which isn't taken.
-    steps = math.floor(math.log(STANDSTILL / abs(velocity)) / math.log(inertia)) + 1
-    return velocity * (1 - inertia**steps) / (1 - inertia)
 
 
 def walk_response(longest: int) -> tuple[float, ...]:

@@ -31,13 +31,11 @@ LOST = 0.5
 
 @dataclass(frozen=True)
 class _Walked:
-    """A hold: where the agent would have stopped before it, its axis and direction, its planned distance and length."""
+    """A hold, where the agent would have stopped before it, and the distance that was planned."""
 
     begin: GroundVector
-    axis: int
-    sign: int
+    hold: Hold
     distance: float
-    is_short: bool
 
 
 class Locomotion:
@@ -92,9 +90,9 @@ class Locomotion:
         plan = plan_hold(distance, walk.covered, tolerance, walk.sneaking, must_sneak=self._must_sneak)
         ticks = plan.ticks + self._more_ticks
         sneak = keys.sneak if plan.gait == "sneak" else None
-        push = self.push * (walk.sneaking if sneak else 1.0)
-        self._tracker = WalkTracker(state, Hold(axis, sign, ticks, push), walk.inertia)
-        self._walked = _Walked(state.end, axis, sign, distance, is_short=ticks <= SHORT_TICKS)
+        hold = Hold(axis, sign, ticks, self.push * (walk.sneaking if sneak else 1.0))
+        self._tracker = WalkTracker(state, hold, walk.inertia)
+        self._walked = _Walked(state.end, hold, distance)
         self._journal.note("plans", key=key, ticks=ticks, sneak=sneak is not None)
         if sneak:
             self._key_hold.begin_sneaking(sneak)
@@ -144,9 +142,10 @@ class Locomotion:
         walked, self._walked = self._walked, None
         if walked is None:
             return
-        covered = (state.end[walked.axis] - walked.begin[walked.axis]) * walked.sign
+        hold = walked.hold
+        covered = (state.end[hold.axis] - walked.begin[hold.axis]) * hold.sign
         self._more_ticks = self._more_ticks + 1 if covered < LOST * walked.distance else 0
-        self._must_sneak = walked.is_short and covered > walked.distance + self._limits.tolerance
+        self._must_sneak = hold.ticks <= SHORT_TICKS and covered > walked.distance + self._limits.tolerance
 
     def _wait_for_sprint_window(self, state: CoastingState) -> CoastingState:
         """Wait until forward can be pressed without sprinting, and return the agent's state then."""
@@ -182,15 +181,11 @@ class Locomotion:
             tick = tick_phase.next(now + TICK_S / 2)
 
             def timed_release() -> float | None:
-                ticks_held = self._ticks_held()
+                position = self._observer.read_position()
+                ticks_held = self._tracker.ticks_held(position) if position else None
                 timed = None if ticks_held is None else tick + (ticks - ticks_held) * TICK_S + mid_tick
                 return timed if timed is not None and abs(timed - planned) <= MAX_SHIFT_S else None
 
             look_times = (tick + self._surely_seen_s,)
             release_at = self._key_hold.hold(planned, key, sneak=sneak, look_times=look_times, on_look=timed_release)
         self._observer.wait_for_step(release_at - mid_tick + TICK_S)
-
-    def _ticks_held(self) -> int | None:
-        """Return how many ticks have felt the key that is down, by a look at the screen; None if that isn't certain."""
-        position = self._observer.read_position()
-        return self._tracker.ticks_held(position) if position else None

@@ -16,7 +16,6 @@ from typing import NamedTuple
 from mc_nested.arena.action import Cell
 from mc_nested.arena.rules import front_of, is_inside
 from mc_nested.live.model.coordinates import STRAY_CELLS, GroundVector, cell_at, hits_floor
-from mc_nested.live.model.kinematics import step_of
 from mc_nested.live.motion.walk_tracker import AT_REST, CoastingState
 
 EYES = 1.62
@@ -95,7 +94,7 @@ class Walk:
         found = [self.state]
         for tick in range(self.tick, until):
             push = next((change.push for change in reversed(self.changes) if change.gap <= tick), AT_REST)
-            found.append(_ticked(found[-1], push))
+            found.append(found[-1].ticked(push))
         return found
 
     def positions(self, until: int) -> dict[int, GroundVector]:
@@ -109,13 +108,6 @@ class Walk:
     def also(self, *changes: Change) -> "Walk":
         """Return the same walker, whose keys change so as well."""
         return Walk(self.tick, self.state, (*self.changes, *changes))
-
-
-def _ticked(state: CoastingState, push: GroundVector) -> CoastingState:
-    """Return the state a tick later (FACTS: Walking)."""
-    right, forward = step_of(state.velocity.right, push.right), step_of(state.velocity.forward, push.forward)
-    position = GroundVector(state.position.right + right, state.position.forward + forward)
-    return CoastingState(position, GroundVector(right * state.inertia, forward * state.inertia), state.inertia)
 
 
 @dataclass(frozen=True)

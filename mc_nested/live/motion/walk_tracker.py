@@ -7,11 +7,10 @@ walker is watched until it stands still.
 """
 
 from dataclasses import dataclass
-from functools import lru_cache
 from typing import NamedTuple
 
 from mc_nested.live.model.coordinates import GroundVector
-from mc_nested.live.model.kinematics import INERTIA, STANDSTILL, coasting_distance, step_of
+from mc_nested.live.model.kinematics import INERTIA, coasted, held, ticked
 
 MATCH = 0.0016
 """Blocks that a position may lie off a path: two roundings to three decimals, and a little."""
@@ -29,11 +28,7 @@ MORE_TICKS = 3
 LAG_TICKS = 12
 """Ticks that a hold may be felt longer: in a game that stalls the release comes late (FACTS: Keys; ten at once)."""
 
-
 AT_REST = GroundVector(0.0, 0.0)
-
-_ROUNDING = 1e-6
-"""Blocks that a sum of steps may lie off what is worked out at once."""
 
 
 @dataclass(frozen=True)
@@ -50,8 +45,14 @@ class CoastingState:
     @property
     def end(self) -> GroundVector:
         """The position at which the walker stops."""
-        right, forward = (coasting_distance(speed, self.inertia) for speed in self.velocity)
-        return GroundVector(self.position.right + right, self.position.forward + forward)
+        (x, y), (x_speed, y_speed), inertia = self.position, self.velocity, self.inertia
+        return GroundVector(coasted(x, x_speed, inertia)[-1][0], coasted(y, y_speed, inertia)[-1][0])
+
+    def ticked(self, push: GroundVector) -> "CoastingState":
+        """Return the state a tick later; ``push`` is what the keys that are down add to its step."""
+        (x, y), (x_speed, y_speed), inertia = self.position, self.velocity, self.inertia
+        (x, x_speed), (y, y_speed) = ticked(x, x_speed, push.right, inertia), ticked(y, y_speed, push.forward, inertia)
+        return CoastingState(GroundVector(x, y), GroundVector(x_speed, y_speed), inertia)
 
 
 @dataclass(frozen=True)
@@ -65,75 +66,15 @@ class Hold:
 
 
 class _PathPoint(NamedTuple):
-    """A point of a path: how far from its beginning, where the walker would end, its velocity, and the key.
+    """A place where a walker can be seen along one axis, its velocity there, and how many ticks have felt the key.
 
-    ``is_released`` is whether the key is up for good; ``ticks_held`` how many ticks have felt it.
+    ``end`` is where it stops; None until the key is up for good.
     """
 
-    covered: float
-    end: float
-    velocity: float
-    is_released: bool
-    ticks_held: int
-
-
-class _Coasting(NamedTuple):
-    """The start of coasting: how far from the path's beginning, the velocity there, the ticks that felt the key.
-
-    ``nearest`` and ``farthest`` are bounds of all its points, ``inertia`` the share of a step that is left.
-    """
-
-    covered: float
+    position: float
     velocity: float
     ticks_held: int
-    nearest: float
-    farthest: float
-    inertia: float
-
-    @property
-    def end(self) -> float:
-        """The position at which the walker stops."""
-        return self.covered + coasting_distance(self.velocity, self.inertia)
-
-    def points(self) -> list[_PathPoint]:
-        """Return the points behind the one where the key came up, until the walker stands still."""
-        covered, velocity, end = self.covered, self.velocity, self.end
-        points: list[_PathPoint] = []
-        while abs(velocity) >= STANDSTILL:
-            covered, velocity = covered + velocity, velocity * self.inertia
-            points.append(_PathPoint(covered, end, velocity, True, self.ticks_held))
-        return points
-
-
-def _coasting_from(covered: float, velocity: float, ticks_held: int, inertia: float) -> _Coasting:
-    # It would come so far if it never stood still; a margin is left for rounding.
-    limit = covered + velocity / (1 - inertia)
-    nearest, farthest = (covered, limit) if velocity > 0 else (limit, covered)
-    return _Coasting(covered, velocity, ticks_held, nearest - _ROUNDING, farthest + _ROUNDING, inertia)
-
-
-class _Path:
-    """All points along one axis: those before the key is up for good, and those of each coasting after it.
-
-    Most coastings are never near where a walker is seen, so their points are worked out when they are asked for.
-    """
-
-    def __init__(self, points: list[_PathPoint], coastings: list[_Coasting]) -> None:
-        self._points, self._coastings = points, coastings
-
-    def matching(self, covered: float, slack: float) -> list[_PathPoint]:
-        """Return the points that this distance can mean."""
-        low, high = covered - slack, covered + slack
-        found = [point for point in self._points if low <= point.covered <= high]
-        for coasting in self._coastings:
-            if coasting.nearest <= high and coasting.farthest >= low:
-                found += [point for point in coasting.points() if low <= point.covered <= high]
-        return sorted(found)
-
-    def farthest_end(self, ticks_held: int) -> float:
-        """Return the farthest end of the points where the key is up and at most so many ticks have felt it."""
-        ends = [point.end for point in self._points if point.is_released and point.ticks_held <= ticks_held]
-        return max(ends + [coasting.end for coasting in self._coastings if coasting.ticks_held <= ticks_held])
+    end: float | None
 
 
 class WalkTracker:
@@ -146,16 +87,12 @@ class WalkTracker:
     """
 
     def __init__(self, begin: CoastingState, hold: Hold | None = None, inertia: float = INERTIA) -> None:
-        self._begin = begin
         self._hold = hold
         self._inertia = inertia
         self._paths = [
-            _hold_path(begin.velocity[axis] * hold.sign, hold.ticks, hold.push, inertia)
-            if hold and hold.axis == axis
-            else _coasting_path(begin.velocity[axis], inertia)
-            for axis in (0, 1)
+            _hold_path(*state, hold, inertia) if hold and hold.axis == axis else _coasting_path(*state, 0, inertia)
+            for axis, state in enumerate(zip(begin.position, begin.velocity, strict=True))
         ]
-        self._signs = [hold.sign if hold and hold.axis == axis else 1 for axis in (0, 1)]
 
     def coasting_at(self, position: GroundVector) -> CoastingState | None:
         """Return the state of a walker that is seen there.
@@ -172,61 +109,47 @@ class WalkTracker:
 
         Return None if not certain.
         """
-        if self._hold is None:
-            return None
-        axis, sign = self._hold.axis, self._hold.sign
-        points = self._matching(axis, (position[axis] - self._begin.position[axis]) * sign)
-        counts = {point.ticks_held for point in points}
-        return counts.pop() if len(counts) == 1 and not any(point.is_released for point in points) else None
+        axis = self._hold.axis if self._hold else 0
+        counts = {point.ticks_held if point.end is None else None for point in self._matching(axis, position[axis])}
+        return counts.pop() if len(counts) == 1 else None
 
     @property
     def end_if_late(self) -> GroundVector:
         """The position at which the walker stops if it feels the key one tick longer than planned."""
+        sign, most = (self._hold.sign, self._hold.ticks + 1) if self._hold else (1, 0)
         right, forward = (
-            self._begin.position[axis]
-            + sign * self._paths[axis].farthest_end(self._hold.ticks + 1 if self._hold else 0)
-            for axis, sign in enumerate(self._signs)
+            sign * max(sign * each.end for each in path if each.end is not None and each.ticks_held <= most)
+            for path in self._paths
         )
         return GroundVector(right, forward)
 
-    def _matching(self, axis: int, covered: float) -> list[_PathPoint]:
-        return self._paths[axis].matching(covered, SLIPPERY_MATCH if self._inertia > SLIPPERY else MATCH)
+    def _matching(self, axis: int, position: float) -> list[_PathPoint]:
+        slack = SLIPPERY_MATCH if self._inertia > SLIPPERY else MATCH
+        return [point for point in self._paths[axis] if abs(point.position - position) <= slack]
 
     def _velocity(self, axis: int, position: float) -> float | None:
-        sign = self._signs[axis]
-        covered = (position - self._begin.position[axis]) * sign
-        points = self._matching(axis, covered)
+        points = self._matching(axis, position)
         is_held = self._hold is not None and self._hold.axis == axis
-        if not points and not is_held and abs(covered - self._paths[axis].farthest_end(0)) <= AGREE:
+        if not points and not is_held and abs(position - self._paths[axis][-1].position) <= AGREE:
             # The last steps of coasting along this axis were a little longer or shorter than known: it ends there.
             return 0.0
-        if not points or not all(point.is_released for point in points):
+        ends = [point.end for point in points if point.end is not None]
+        if not points or len(ends) < len(points) or max(ends) - min(ends) > AGREE:
             return None
-        ends = [point.end for point in points]
-        if max(ends) - min(ends) > AGREE:
-            return None
-        return min(points, key=lambda point: abs(point.covered - covered)).velocity * sign
+        return min(points, key=lambda point: abs(point.position - position)).velocity
 
 
-@lru_cache(256)
-def _coasting_path(velocity: float, inertia: float) -> _Path:
-    coasting = _coasting_from(0.0, velocity, 0, inertia)
-    return _Path([_PathPoint(0.0, coasting.end, velocity, True, 0)], [coasting])
+def _coasting_path(position: float, velocity: float, ticks_held: int, inertia: float) -> list[_PathPoint]:
+    states = coasted(position, velocity, inertia)
+    return [_PathPoint(*state, ticks_held, states[-1][0]) for state in states]
 
 
-@lru_cache(64)
-def _hold_path(velocity: float, ticks: int, push: float, inertia: float) -> _Path:
-    """Return every point of a hold of about ``ticks`` ticks, of the coasting before it and of the coasting after it."""
+def _hold_path(position: float, velocity: float, hold: Hold, inertia: float) -> list[_PathPoint]:
+    """Return every point of a hold of about its ticks, of the coasting before it and of the coasting after it."""
     points: list[_PathPoint] = []
-    coastings: list[_Coasting] = []
-    before = _coasting_from(0.0, velocity, 0, inertia).points()[:MORE_TICKS]
-    for waits, start in enumerate([(0.0, velocity), *((point.covered, point.velocity) for point in before)]):
-        covered, speed = start
-        points.append(_PathPoint(covered, covered, speed, False, 0))
-        for held in range(1, ticks + (MORE_TICKS if waits else LAG_TICKS) + 1):
-            step = step_of(speed, push)
-            covered, speed = covered + step, step * inertia
-            points.append(_PathPoint(covered, covered, speed, False, held))
-            if held >= ticks - MORE_TICKS and abs(speed) >= STANDSTILL:
-                coastings.append(_coasting_from(covered, speed, held, inertia))
-    return _Path(points, coastings)
+    for waits, begin in enumerate(coasted(position, velocity, inertia)[: MORE_TICKS + 1]):
+        states = held(hold.ticks + (MORE_TICKS if waits else LAG_TICKS), hold.sign * hold.push, inertia, *begin)
+        points += [_PathPoint(*state, ticks, None) for ticks, state in enumerate(states)]
+        for ticks in range(max(1, hold.ticks - MORE_TICKS), len(states)):
+            points += _coasting_path(*states[ticks], ticks, inertia)[1:]
+    return points

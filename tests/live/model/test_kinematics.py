@@ -7,14 +7,14 @@ from hypothesis import strategies as st
 from mc_nested.live.model.kinematics import (
     PUSH,
     HoldPlan,
-    coasting_distance,
+    coasted,
     displacement,
     hold_path,
     hold_paths,
     nearest_ticks,
     plan_hold,
     push_of,
-    step_of,
+    ticked,
     walk_response,
 )
 
@@ -97,7 +97,7 @@ def test_a_tie_between_walking_and_sneaking_is_walked() -> None:
 def test_a_step_adds_push_and_velocity_and_a_velocity_below_0_003_counts_as_0(
     velocity: float, push: float, step: float
 ) -> None:
-    assert step_of(velocity, push) == pytest.approx(step)
+    assert ticked(2.0, velocity, push, 0.5) == pytest.approx((2.0 + step, step / 2))
 
 
 def test_a_path_holds_each_ticks_position_until_standstill() -> None:
@@ -115,9 +115,8 @@ def test_the_distance_of_a_hold_depends_on_the_grounds_inertia() -> None:
     assert displacement(1, 0.1) == pytest.approx(PUSH * 1.1)
 
 
-@given(st.floats(-0.3, 0.3))
-def test_the_coasting_distance_is_the_sum_of_the_steps_until_standstill(velocity: float) -> None:
-    position, left = 0.0, velocity
-    while abs(left) >= 0.003:
-        position, left = position + left, left * 0.546
-    assert coasting_distance(velocity) == pytest.approx(position, abs=1e-9)
+@pytest.mark.parametrize("sign", [1, -1])
+def test_a_walker_coasts_until_its_velocity_is_below_0_003(sign: int) -> None:
+    states = [(2.0, sign * 0.02), (2.0 + sign * 0.02, sign * 0.01), (2.0 + sign * 0.03, sign * 0.005)]
+    states.append((2.0 + sign * 0.035, sign * 0.0025))
+    assert coasted(2.0, sign * 0.02, 0.5) == [pytest.approx(state) for state in states]
