@@ -29,7 +29,7 @@ from mc_nested.cli.options import (
 )
 from mc_nested.cli.output import JsonOption, Output, QuietOption, prints
 from mc_nested.cli.view import Viewed, ViewOption, viewed
-from mc_nested.cli.watching import VideoOption, filmed, started_over, watched
+from mc_nested.cli.watching import VideoOption, filmed, started_over, times_of, watched
 from mc_nested.errors import ScenarioError, UserError
 from mc_nested.live.profile.store import load_profile, profile_path
 from mc_nested.report.film import check_film
@@ -90,10 +90,12 @@ def build(  # noqa: PLR0913 - a Typer verb: a parameter for each option
         opened = open_game(backend, scenario, replace(opening, journal=viewing.publisher.board))
         with opened as (played, display), filmed(played, display, scenario, video) as game:
             built = started_over(partial(_built, game, scenario, chosen, viewing, quiet=quiet or as_json))
+            times = times_of(game)
     name = ", then ".join(scenario.materials[index].name for index, _ in groupby(index for _, index in chosen))
     output.result(
         Built(scenario.name, scenario.blocks, built, name, steps, video),
         f"  built {built} of {scenario.blocks} blocks, of {name}, in {steps} steps",
+        *times,
         *([f"  film: {video}"] if video else []),
     )
     if afterwards:

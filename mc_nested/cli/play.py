@@ -22,7 +22,7 @@ from mc_nested.cli.options import (
 from mc_nested.cli.output import JsonOption, Output, QuietOption, prints
 from mc_nested.cli.runs import greedy_episodes
 from mc_nested.cli.view import Viewed, ViewOption, viewed
-from mc_nested.cli.watching import VideoOption, filmed, started_over, watched
+from mc_nested.cli.watching import VideoOption, filmed, started_over, times_of, watched
 from mc_nested.errors import RunError, UserError
 from mc_nested.learn.agents import Agent
 from mc_nested.learn.dqn.engines import SCREEN
@@ -91,6 +91,7 @@ def play(  # noqa: PLR0913 - a Typer verb: a parameter for each option
             pictures = _Screenshots(folder.path / "screenshots", display) if screenshots and display else None
             is_quiet = output.quiet or output.as_json
             episode = started_over(lambda: _watch(game, folder, agent, which, pictures, viewing, is_quiet=is_quiet))
+            times = times_of(game)
     material = episode.material_name(scenario)
     found = PlayResult(
         folder=folder.path,
@@ -103,7 +104,7 @@ def play(  # noqa: PLR0913 - a Typer verb: a parameter for each option
         screenshots=pictures.folder if pictures else None,
         film=video,
     )
-    lines = [f"  score {episode.score:g} of {scenario.optimum:g}, in {material}, {len(episode.actions)} steps"]
+    lines = [f"  score {episode.score:g} of {scenario.optimum:g}, in {material}, {len(episode.actions)} steps", *times]
     if pictures:
         lines.append(f"  screenshots: {pictures.folder}")
     if video:

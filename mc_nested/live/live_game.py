@@ -206,7 +206,8 @@ class LiveGame:
         self._controller.is_attended = False
         ended = self._clock.now()
         self.log.ends(ended, self._controller.held_s)
-        self._journal.note("done", cell=outcome.cell, placed=outcome.placed, seconds=ended - began)
+        facts: dict[str, Fact] = {"cell": outcome.cell, "placed": outcome.placed, "seconds": ended - began}
+        self._journal.note("done", **facts, share=self.log.shares())
         self._cell = outcome.cell
         self._announced = following if self._body.is_under_way else None
         if outcome.placed is not None:

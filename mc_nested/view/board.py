@@ -132,6 +132,7 @@ class Board:
         elif kind == "done":
             with self._lock:
                 self._actions.append(action_seen(self._action, facts))
+                self._fields["share"] = str(facts.get("share", ""))
             self._begin(Doing("chooses what to do next, or practises"))
         elif doing := doing_of(kind, facts):
             if kind == "acts":

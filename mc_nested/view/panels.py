@@ -54,7 +54,7 @@ def side_panel(status: Status, width: int, height: int) -> Text:
     wanted = min(len(status.actions), LEAST_ACTIONS) + bool(status.actions)
     curve = _curve(learning, width, height - fixed - wanted) if learning else []
     room = height - fixed - len(curve)
-    actions = _actions(status.actions, room)
+    actions = _actions(status.actions, status.share, room)
     lines = [*head, *curve, *reading, *actions, *said][: max(0, height)]
     for line in lines:
         line.truncate(width, overflow="ellipsis")
@@ -84,12 +84,14 @@ def _reading(reading: ReadingSeen | None) -> list[Text]:
     return lines
 
 
-def _actions(actions: tuple[ActionSeen, ...], room: int) -> list[Text]:
+def _actions(actions: tuple[ActionSeen, ...], share: str, room: int) -> list[Text]:
     if not actions or room < 2:
         return []
+    shares = [Text(share)] if share and room > LEAST_ACTIONS + 1 else []
     return [
         Text("last actions: time, where to, block", HEAD),
-        *(_action(action) for action in reversed(actions[-(room - 1) :])),
+        *shares,
+        *(_action(action) for action in reversed(actions[-(room - 1 - len(shares)) :])),
     ]
 
 

@@ -108,7 +108,8 @@ class Status(BaseModel):
     """A run at one moment. Times are seconds since 1970; ``since`` is when it began what it does now.
 
     ``question`` waits for an answer of a person, by its number; ``can_pause``: it pauses when it is asked to;
-    ``pausing``: it does so after what is under way; ``ended`` says how the run ended.
+    ``pausing``: it does so after what is under way; ``share`` says where the actions' time went; ``ended`` how the run
+    ended.
     """
 
     model_config = ConfigDict(frozen=True, ser_json_inf_nan="constants")
@@ -128,6 +129,7 @@ class Status(BaseModel):
     arena: ArenaSeen | None = None
     reading: ReadingSeen | None = None
     actions: tuple[ActionSeen, ...] = ()
+    share: Words = ""
     learning: Learning | None = None
     lines: tuple[Words, ...] = ()
     question: Words | None = None
