@@ -41,6 +41,9 @@ EARLY_S = TICK_S / 2 + EARLY_LOOK_S
 MOST_PLANS = 2
 """How often an action is planned anew: a key that is felt a tick later again and again isn't felt at all."""
 
+SHOWN_TICKS = 3
+"""Ticks after the gap of a click within which its block is seen: it is felt a tick late at most, and shown for two."""
+
 SWEEP = 0.05
 """Blocks between two places at which a late click is looked into."""
 
@@ -65,6 +68,15 @@ class _Action:
     def is_done(self, tick: int) -> bool:
         """Return whether all of it was seen by that tick: the end of its walk, the cell, and what stands in front."""
         return self.was_there and self.is_front_right and tick > self.plan.release
+
+
+    @property
+    def last_tick(self) -> int:
+        """The last tick after which it can be seen to be done: a block is in view for a tick or two, a click late by one.
+        """
+        plan = self.plan
+        late = plan.stop + SEEN_TICKS if plan.click is None or not self.is_clicked else plan.click + SHOWN_TICKS
+        return max(late, plan.release + 1)
 
 
 class Overlap:
@@ -166,7 +178,7 @@ class Overlap:
         looked_at = -math.inf
         while self._walk is not None:
             tick = self._next_tick(self._walk)
-            if tick > max(action.plan.stop, action.plan.click or 0) + SEEN_TICKS:
+            if tick > action.last_tick:
                 return False
             sure_at = self._time_of_look(tick)
             look_at = max(sure_at - self._early_s(action, self._walk, tick), looked_at + THIRD_FRAME_S)
