@@ -17,6 +17,7 @@ from mc_nested.learn.evaluation import play_greedily
 from mc_nested.learn.games.episode import EpisodePlan
 from mc_nested.learn.games.player import play_episode
 from mc_nested.learn.imagination.first_tries import FirstTries
+from mc_nested.learn.learnt_game import LearntGame
 from mc_nested.learn.preset import Preset
 from mc_nested.learn.trainer import Trainer
 from sim.grid import GridGame, GridVectorEnv
@@ -146,3 +147,12 @@ def test_a_training_that_learns_between_episodes_announces_what_follows_its_firs
         assert game.acts / 2 < game.kept <= game.acts - game.episodes
     evaluated = sum(row.steps - 1 for row in trainer.evaluation_rows)
     assert sum(game.kept for game in games) > evaluated
+
+
+def test_a_run_whose_learnt_game_does_not_hold_announces_nothing() -> None:
+    trainer = trained(SMALL, "nested", BENT, [GridGame(BENT)])
+    practice = trainer.practice
+    assert isinstance(practice, LearntGame)
+    assert practice.is_settled(0)
+    practice._broken[0] = 1  # its excursions choose now
+    assert not practice.is_settled(0)

@@ -8,15 +8,17 @@ import pytest
 
 from mc_nested.arena.action import Cell
 from mc_nested.arena.env import ArenaEnv
+from mc_nested.arena.game import Resumable
 from mc_nested.arena.scenario_file import load_scenario
 from mc_nested.arena.vector import ArenaVectorEnv
 from mc_nested.arrays import Arrays
 from mc_nested.errors import LiveError
 from mc_nested.learn.agents import AGENT_SPECS, Agent
-from mc_nested.learn.imagination.background_practice import Background, GoesOn
+from mc_nested.learn.imagination.background_practice import Background, BackgroundThread, GoesOn
 from mc_nested.learn.preset import load_preset
 from mc_nested.learn.trainer import Trainer
 from sim.grid import GridGame, GridVectorEnv
+from tests.arena.made_games import TakesAtItsWord
 from tests.learn.made_trainings import StartsOver, copied, finish
 
 LINE = load_scenario("line")
@@ -103,6 +105,29 @@ def test_networks_practised_during_an_episode_are_taken_over_before_the_next_res
         assert trainer.agent.low_level.engine.updates.tolist() == [0]
     trainer.tick()
     assert trainer.agent.low_level.engine.updates[0] > 0
+
+
+class Live(TakesAtItsWord):
+    """A game that can't be saved half-way, and that takes whoever plays it at their word."""
+
+    @property
+    def resumable(self) -> Resumable | None:
+        return None
+
+
+class Hasty(BackgroundThread):
+    """Waits for hardly any practice; what isn't over goes on beside the episode."""
+
+    def end(self, longer_s: float = 0.0) -> None:
+        super().end(longer_s / 100)
+
+
+@pytest.mark.parametrize("background", [Rounds(3, beside_episode=ENOUGH), Hasty()], ids=["rounds", "thread"])
+def test_practice_beside_an_episode_changes_nothing_that_was_announced_in_it(background: Background) -> None:
+    game = Live(LINE)
+    trainer = finish(training(background, game))
+    assert game.acts == trainer.env_steps + trainer.evaluation_steps
+    assert game.kept > game.acts / 2
 
 
 def test_a_failed_reset_ends_the_practice_and_the_training_goes_on() -> None:

@@ -19,6 +19,7 @@ from mc_nested.live.input.input_controller import FRESH_S, PressTarget
 from mc_nested.live.live_game import LiveGame
 from mc_nested.live.model.coordinates import Facing
 from mc_nested.live.model.reading import Target
+from mc_nested.live.model.timing import KEY_LOOK_S
 from mc_nested.live.profile.tables import GameVersion, Profile, WalkTable
 from mc_nested.live.vision.debug_screen import read_debug_screen
 from sim.client.client import VirtualClient
@@ -139,6 +140,24 @@ def test_a_live_game_takes_any_action_where_no_walk_has_begun() -> None:
         game.act(Action.B, None, (Action.B, None))  # when the game's ticks are isn't known yet
         assert not game._body.is_under_way
         assert game.act(Action.L).cell == (6, 13)
+
+
+@pytest.mark.parametrize("pause_s", [0.1, 5.0])
+def test_a_pause_after_a_walk_has_begun_costs_time_alone(pause_s: float) -> None:
+    client, actions = VirtualClient(seed=3), build(LINE)
+    with play(client, LINE) as game:
+        game.reset(LINE.best_material)
+        walks = 0
+        for action, then in zip(actions, [*actions, None][1:], strict=True):
+            game.act(action, None, None if then is None else (then, None))
+            walks += game._body.is_under_way
+            for _ in range(round(pause_s / KEY_LOOK_S)):
+                client.clock.sleep(KEY_LOOK_S)
+                game._controller.release_overdue()  # as the watchdog does
+        arena = arena_of(client)
+        assert client.placed(arena) == LINE.design
+    assert walks > 1
+    assert client.window.strays == []
 
 
 @pytest.mark.slow
