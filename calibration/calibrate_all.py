@@ -10,7 +10,6 @@ import dataclasses
 import datetime
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from functools import partial
 from pathlib import Path
 from typing import Protocol
 
@@ -66,7 +65,7 @@ def run_steps(
     context: CalibrationContext,
     profile: Profile,
     progress: StepProgress,
-    recover: Callable[[Profile], None],
+    recover: Callable[[Profile], object],
 ) -> RunResult:
     """Run the steps in order.
 
@@ -175,7 +174,8 @@ def calibrate_all(
         display = context.devices.display
         context.connection.check_single_player()
         profile = profile.model_copy(update={"game": game_in(display.title(), profile.game)})
-        run = run_steps(steps, context, profile, progress, partial(_recover, context))
+        connection = context.connection
+        run = run_steps(steps, context, profile, progress, lambda p: Recovery(p, connection.for_profile(p)).recover())
         fingerprint = _fingerprint(run, context.devices, today or datetime.date.today().isoformat())
     run = dataclasses.replace(run, profile=run.profile.model_copy(update={"calibrated": fingerprint}))
     points = tuple(point for result in run.results for point in result.points)
@@ -192,10 +192,6 @@ def check_gates(checks: Sequence[Check]) -> None:
     for check in checks:
         if check.status == "fail" and check.name in GATES:
             raise DesktopError(f"{check.name}: {check.detail}: {check.fix or 'run mc-nested doctor'}")
-
-
-def _recover(context: CalibrationContext, profile: Profile) -> None:
-    Recovery(profile, context.connection.for_profile(profile)).recover()
 
 
 def _fingerprint(run: RunResult, devices: Devices, day: str) -> CalibratedTable:

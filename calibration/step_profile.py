@@ -4,11 +4,13 @@ Each write is atomic.
 """
 
 import tempfile
+from collections.abc import Callable
 from pathlib import Path
 
 import cv2
 
 from calibration.context import StepResult
+from calibration.report.findings import save_findings_or_warn
 from mc_nested.atomic_file import atomic_write
 from mc_nested.errors import ProfileError
 from mc_nested.live.devices import Frame
@@ -50,6 +52,17 @@ def write_result(result: StepResult, path: Path) -> None:
     for point in result.points:
         write_picture(point.picture, picture_file(path, point.name))
     save_profile(result.profile, path)
+
+
+def keep_result(result: StepResult, path: Path, picture: Path, say: Callable[[str], None]) -> tuple[StepResult, Path]:
+    """Write the profile's file, the step's first picture, and what the report needs; return the result and the picture.
+
+    ProfileError as for ``write_result`` and ``write_picture``; for want of a report there is only a warning.
+    """
+    write_result(result, path)
+    save_findings_or_warn(say, path, [result])
+    write_picture(result.pictures[0].frame, picture)
+    return result, picture
 
 
 def write_picture(frame: Frame, file: Path) -> None:

@@ -12,8 +12,7 @@ from pathlib import Path
 from calibration.clicks.menu_walk import MenuWalk
 from calibration.clicks.points import RecordedPoint, picture_of_points
 from calibration.context import CalibrationContext, OpenContext, ReportPicture, StepResult
-from calibration.report.findings import save_findings_or_warn
-from calibration.step_profile import starting_profile, write_picture, write_result
+from calibration.step_profile import keep_result, starting_profile
 from mc_nested.errors import NotConfirmedError, ProfileError, UserError
 from mc_nested.live.desktop.key_listener import open_hotkeys
 from mc_nested.live.devices import SWITCH_KEYS, Display, Pointer
@@ -138,11 +137,7 @@ def calibrate_clicks(
             for line in result.lines:
                 context.say(line)
             return None
-    write_result(result, path)
-    save_findings_or_warn(context.say, path, [result])
-    picture = picture_file(path)
-    write_picture(result.pictures[0].frame, picture)
-    return result, picture
+    return keep_result(result, path, picture_file(path), context.say)
 
 
 def find_clicks(context: CalibrationContext, profile: Profile, by_hand: ByHand | None = None) -> StepResult:

@@ -10,6 +10,7 @@ from calibration.installation.folders import GameFolder
 from calibration.installation.options_txt import ACTIONS, FIXED, NO_KEY, OptionsTxt, is_same_key, key_name, load_options
 from mc_nested.errors import ProfileError
 from mc_nested.live.profile.tables import KeysTable
+from mc_nested.live.vision.layout import largest_gui_scale
 from mc_nested.live.vision.overlay import SCALES
 
 CHAT_CHECKS = (CheckName.CHAT_VISIBILITY, CheckName.TEXT_BACKGROUND, CheckName.FRIENDS_KEY)
@@ -162,7 +163,7 @@ def gui_scale_row(value: str | None, window: tuple[int, int] | None) -> Check:
         if wanted == 0:
             return Check(row, "warn", "Auto: with the window's size it changes too", fix)
         return Check(row, "pass", value) if wanted <= most else Check(row, "fail", f"{value}: {most} at most", fix)
-    largest = _largest_scale(window)
+    largest = largest_gui_scale(window)
     scale, said = (min(wanted, largest), value) if wanted else (largest, "Auto")
     if scale > most:
         return Check(row, "fail", f"{said}, {scale} in this window: {most} at most can be read", fix)
@@ -181,15 +182,11 @@ def debug_scale_row(value: str | None, gui: str | None, window: tuple[int, int] 
     said = {_AS_GUI: f"{value}, as the GUI scale", 0: "Auto"}.get(int(value), value)
     if window is None or gui is None or not gui.isdecimal():
         return Check(row, "pass", said)
-    largest = _largest_scale(window)
+    largest = largest_gui_scale(window)
     of_gui = min(int(gui), largest) or largest
     scale = min(int(value), largest) or largest // 2
     # It counts only where it is the smaller one.
     return Check(row, "pass", f"{said}, {scale if 0 < scale < of_gui else of_gui} in this window")
-
-
-def _largest_scale(window: tuple[int, int]) -> int:
-    return max(1, min(window[0] // 320, window[1] // 240))
 
 
 def keys_row(options: OptionsTxt, keys: KeysTable) -> Check:

@@ -16,8 +16,7 @@ from calibration.cross_check import cross_check
 from calibration.font.read_back import ReadLine, phase_of, read_back, side_by_side
 from calibration.font.sources import FontSources, font_sources
 from calibration.installation.folders import System
-from calibration.report.findings import save_findings_or_warn
-from calibration.step_profile import starting_profile, write_picture, write_result
+from calibration.step_profile import keep_result, starting_profile
 from mc_nested.errors import ClipboardError, FontError, LiveError, NotConfirmedError, UnreadableError
 from mc_nested.live.devices import SWITCH_KEYS, Frame
 from mc_nested.live.menus.recovery import UNKNOWN_S, Recovery
@@ -130,11 +129,7 @@ def calibrate_font(
         load_font(font.expanduser())  # before a window is looked for
     with context_of(profile) as context:
         found = find_font(context, profile, sources_for(context, profile, font, sources))
-    write_result(found, path)
-    save_findings_or_warn(context.say, path, [found])
-    picture = path.with_name(f"{path.stem}-font.png")
-    write_picture(found.pictures[0].frame, picture)
-    return found, picture
+    return keep_result(found, path, path.with_name(f"{path.stem}-font.png"), context.say)
 
 
 def sources_for(
@@ -188,12 +183,8 @@ def _on_screen(
     context: CalibrationContext, profile: Profile, candidates: Sequence[Candidate], sources: FontSources
 ) -> Candidate:
     """Return the first candidate that reads what is on the screen, once that is a world with its debug screen."""
-    display, clock, controller, debug = (
-        context.devices.display,
-        context.devices.clock,
-        context.controller,
-        profile.keys.debug,
-    )
+    display, clock = context.devices.display, context.devices.clock
+    controller, debug = context.controller, profile.keys.debug
     # The debug screen may be off, or a screen without labels may be open. A key without effect is pressed again.
     presses = iter(((debug,), (debug, "esc"), ("esc",)))
     began, unknown_since, unknown = clock.now(), clock.now(), [display.grab()]

@@ -9,12 +9,9 @@ from collections.abc import Sequence
 from contextlib import suppress
 from pathlib import Path
 
-import cv2
-
 from calibration.command_console import CommandConsole
 from calibration.context import CalibrationContext, OpenContext, StepResult
-from calibration.report.findings import save_findings_or_warn
-from calibration.step_profile import starting_profile
+from calibration.step_profile import keep_result, starting_profile
 from calibration.walk.figure import picture_of_empirical_walk, picture_of_walk
 from calibration.walk.gait_fit import rms
 from calibration.walk.survey import FORWARD_AXIS, SIDE_AXIS, Survey, describe_keys
@@ -27,7 +24,6 @@ from mc_nested.live.menus.wait_for_player import wait_until_standing_still
 from mc_nested.live.model.kinematics import TICK_S, nearest_ticks
 from mc_nested.live.model.reading import WorldPose
 from mc_nested.live.motion.pose_observer import PoseEstimate, PoseFrame, PoseObserver, PoseReader
-from mc_nested.live.profile.store import save_profile
 from mc_nested.live.profile.tables import KeysTable, Profile, WalkTable
 
 TIMED = (5, 5, 4, 4, 6, 6, 2, 2)
@@ -64,14 +60,7 @@ def calibrate_walk(profile_name: str | Path, context_of: OpenContext) -> tuple[S
     profile.screen.font_path()  # fails before a window is searched for
     with context_of(profile) as context:
         found = walk(context, profile)
-    save_profile(found.profile, path)
-    save_findings_or_warn(context.say, path, [found])
-    picture = path.with_name(f"{path.stem}-walk.png")
-    try:
-        picture.write_bytes(cv2.imencode(".png", found.pictures[0].frame)[1].tobytes())
-    except OSError as error:
-        raise ProfileError(f"{picture}: the picture can't be written ({error}); the profile is written") from error
-    return found, picture
+    return keep_result(found, path, path.with_name(f"{path.stem}-walk.png"), context.say)
 
 
 def walk(context: CalibrationContext, profile: Profile) -> StepResult:

@@ -170,9 +170,6 @@ def _held_out_rms(traces: Sequence[HoldTrace]) -> float:
     return rms([hold.end_error for hold in held_out if not hold.is_outlier])
 
 
-TICKS = 12
-"""Ticks up to which a profile says how far a hold leads."""
-
 SHORTEST_STEP = 0.01
 """On a line that would begin below zero, every further tick leads at least so many blocks farther."""
 

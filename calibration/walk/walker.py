@@ -1,7 +1,6 @@
 """Walker: holds keys for a time from rest, and records every position that is seen until standstill."""
 
 import math
-from collections.abc import Iterator
 from dataclasses import dataclass
 
 from mc_nested.live.connection import GameConnection
@@ -51,14 +50,14 @@ class _Recording:
     """The new positions of a hold, as poses are seen."""
 
     def __init__(self, begin: GroundVector, at: float) -> None:
-        self._latest, self._since = begin, at
+        self.latest, self._since = begin, at
         self.sightings: list[Sighting] = []
 
     def add(self, pose: PoseEstimate) -> None:
         """Take in a pose; one at another position than the last counts as a sighting."""
-        if pose.position != self._latest:
+        if pose.position != self.latest:
             self.sightings.append(Sighting(self._since, pose.at, pose.position))
-        self._latest, self._since = pose.position, pose.at
+        self.latest, self._since = pose.position, pose.at
 
 
 class Walker:
@@ -124,12 +123,11 @@ class Walker:
             is_far = math.hypot(*pose.position.minus(begin)) >= max_distance
             return self._clock.now() if is_far else None
 
-        self._key_hold.hold(pressed + seconds, key, sneak=sneak, look_times=self._look_times(), on_look=release_if_far)
+        look_times = iter(lambda: self._clock.now() + HALF_FRAME_S, None)
+        self._key_hold.hold(pressed + seconds, key, sneak=sneak, look_times=look_times, on_look=release_if_far)
         # The look before a press takes a moment.
         pressed, released = self._key_hold.pressed_at, self._clock.now()
-        latest = recording.sightings[-1].position if recording.sightings else begin
-        standstill = Standstill(latest, released, CAREFUL_SETTLE_S)
-        self._follow(self._look(), standstill, recording)
+        self._follow(self._look(), Standstill(recording.latest, released, CAREFUL_SETTLE_S), recording)
         return RecordedHold(pressed, released, begin, tuple(recording.sightings))
 
     def _follow(self, pose: PoseEstimate, standstill: Standstill, recording: _Recording) -> GroundVector:
@@ -148,7 +146,3 @@ class Walker:
         # Waits this short don't check whether the window is still in front.
         self._controller.check_front()
         return self._observer.look_and_check()
-
-    def _look_times(self) -> Iterator[float]:
-        while True:
-            yield self._clock.now() + HALF_FRAME_S

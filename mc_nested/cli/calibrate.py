@@ -142,18 +142,15 @@ class Lines:
 
     def end(self, result: StepResult, seconds: float) -> None:
         """Say what the step found."""
-        self._took(seconds)
+        self.seconds += seconds
         for line in result.lines:
             self._say(f"    {line}")
         self._say(f"    [{seconds:.0f} s, {self.seconds:.0f} s in all]")
 
     def skip(self, reason: str, seconds: float) -> None:
         """Say why the step is left out."""
-        self._took(seconds)
-        self._say(f"    warning: {reason}; the run goes on without it")
-
-    def _took(self, seconds: float) -> None:
         self.seconds += seconds
+        self._say(f"    warning: {reason}; the run goes on without it")
 
 
 def _examined(font: Path | None, profile_name: str) -> Sequence[Check]:

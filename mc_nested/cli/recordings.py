@@ -48,18 +48,9 @@ class RecordingFound:
     @classmethod
     def of(cls, path: Path, seen: Overview) -> "RecordingFound":
         """Return a summary of a recording."""
-        return cls(
-            path,
-            seen.what,
-            seen.version,
-            None if seen.began is None else _local(seen.began),
-            seen.seconds,
-            seen.calls,
-            seen.actions,
-            seen.pictures,
-            seen.size,
-            seen.damage,
-        )
+        began = None if seen.began is None else datetime.datetime.fromtimestamp(seen.began / 1e9)
+        facts = (seen.what, seen.version, began, seen.seconds, seen.calls, seen.actions, seen.pictures, seen.size)
+        return cls(path, *facts, seen.damage)
 
 
 @dataclass(frozen=True)
@@ -157,10 +148,6 @@ def _row(found: RecordingFound) -> tuple[str, ...]:
         return "", "", "", "", ""
     began = "" if found.began is None else f"{found.began:%Y-%m-%d %H:%M:%S}"
     return found.what, began, f"{found.seconds:.0f} s", str(found.actions), f"{found.size / 1e6:.1f} MB"
-
-
-def _local(time_ns: int) -> datetime.datetime:
-    return datetime.datetime.fromtimestamp(time_ns / 1e9)
 
 
 def _state(seen: Overview) -> str:

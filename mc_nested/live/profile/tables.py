@@ -7,7 +7,7 @@ import re
 from pathlib import Path, PurePosixPath, PureWindowsPath
 from typing import Annotated, Literal
 
-from pydantic import Field, field_validator, model_validator
+from pydantic import AfterValidator, Field, field_validator, model_validator
 
 from mc_nested.errors import ProfileError
 from mc_nested.live.model.keys import canonical, check_key
@@ -41,6 +41,9 @@ def _whole(path: str) -> str:
     if path.startswith("~") or PurePosixPath(path).is_absolute() or PureWindowsPath(path).is_absolute():
         return path
     raise ValueError(f"{path!r} depends on where you are: write the whole path, or one from ~")
+
+
+WholePath = Annotated[str, AfterValidator(_whole)]
 
 
 class WindowTable(ProfileTable):
@@ -140,7 +143,7 @@ class KeysTable(ProfileTable):
 class ScreenTable(ProfileTable):
     """How the debug screen is drawn. Without a scale, all of it is found on the screen, for scales 1 to 8."""
 
-    font: str | None = Field(
+    font: WholePath | None = Field(
         default=None,
         description="the game's own client jar, a resource pack or an ascii.png: a whole path, or one from ~",
     )
@@ -161,11 +164,6 @@ class ScreenTable(ProfileTable):
         description="red, green, blue of the text; counts beside debug_scale only, the layout's if left out",
     )
 
-    @field_validator("font")
-    @classmethod
-    def _is_a_whole_path(cls, font: str | None) -> str | None:
-        return None if font is None else _whole(font)
-
     def font_path(self) -> Path:
         """Return where the font is read from.
 
@@ -182,17 +180,14 @@ class ScreenTable(ProfileTable):
 class WorldTable(ProfileTable):
     """A world without cheats: a reset leaves it, restores its folder from a copy, and enters it again by clicks."""
 
-    folder: str = Field(description="the world's folder in the game's saves; it must hold a file mc-nested-arena.txt")
-    template: str = Field(
+    folder: WholePath = Field(
+        description="the world's folder in the game's saves; it must hold a file mc-nested-arena.txt"
+    )
+    template: WholePath = Field(
         description="a copy of that folder, elsewhere, with the agent on the start cell, looking the arena's way and "
         "body.pitch down, and the scenario's blocks in the hotbar"
     )
     name: str = Field(description="the world's name, as the list of worlds shows it")
-
-    @field_validator("folder", "template")
-    @classmethod
-    def _is_a_whole_path(cls, path: str) -> str:
-        return _whole(path)
 
 
 class BlocksTable(ProfileTable):

@@ -60,18 +60,14 @@ def line_boxes(frame: Frame, scale: int) -> list[Region]:
     for row in range(_FIRST, dots.shape[0] - GLYPH_ROWS, VANILLA.pitch):
         ink = is_ink[row : row + GLYPH_ROWS]
         in_a_box = np.all(ink | may_be_ground[row : row + GLYPH_ROWS], axis=0)
-        boxes += [_in_pixels(row, columns, scale) for columns in _lines_in(np.any(ink, axis=0), in_a_box)]
+        rows = row - 1, row - 1 + VANILLA.pitch
+        boxes += [_in_pixels(rows, *columns, scale) for columns in _lines_in(np.any(ink, axis=0), in_a_box)]
     return boxes
 
 
 def has_letters(picture: Frame) -> Bools:
     """Return where a picture (rows, columns, 3) has a colour of the debug screen's letters."""
     return has_colour(picture, PLAIN, GREEN, RED)
-
-
-def _in_pixels(row: int, columns: tuple[int, int], scale: int) -> Region:
-    first, end = columns
-    return Region(first * scale, (row - 1) * scale, (end - first) * scale, VANILLA.pitch * scale)
 
 
 def _lines_in(has_ink: Bools, in_a_box: Bools) -> Iterator[tuple[int, int]]:
@@ -145,7 +141,7 @@ def ground_parts(frame: Frame, scale: int) -> list[GroundPart]:
             wide = max(ends) + (1 if is_right else BOXES.box.behind)
             first, end = (columns - 1 - wide, columns - _SIDE + 1) if is_right else (_SIDE - 1, wide + 1)
             parts += [
-                GroundPart(_part_in_pixels(each, first, end, scale), grey) for *each, grey in _grounds(lines, has_title)
+                GroundPart(_in_pixels(each, first, end, scale), grey) for *each, grey in _grounds(lines, has_title)
             ]
     return parts if any(part.grey == TITLE_GREY for part in parts) else []
 
@@ -203,6 +199,6 @@ def _grounds(lines: Sequence[_TextRow], has_title: bool) -> Iterator[tuple[int, 
     yield top + BOXES.pitch if has_title else top, end, GREY
 
 
-def _part_in_pixels(rows: Sequence[int], first: int, end: int, scale: int) -> Region:
+def _in_pixels(rows: Sequence[int], first: int, end: int, scale: int) -> Region:
     top, below = rows
     return Region(max(0, first) * scale, top * scale, (end - max(0, first)) * scale, (below - top) * scale)

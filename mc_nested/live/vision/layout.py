@@ -3,7 +3,7 @@
 A reader has to know this before it reads a line (FACTS: The F3 debug screen).
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal, NamedTuple
 
 Colour = tuple[int, int, int]
@@ -86,16 +86,7 @@ VANILLA = ScreenLayout(
 )
 """The game's own, to 26.3 (FACTS: The F3 debug screen)."""
 
-BOXES = ScreenLayout(
-    name="boxes",
-    pitch=LINE_PITCH,
-    text_colour=PLAIN,
-    box=Box(grey=80, behind=2),
-    has_one_grid=True,
-    right_edge=5,
-    has_target_column=False,
-    has_facts=True,
-)
+BOXES = replace(VANILLA, name="boxes", right_edge=5, has_facts=True)
 """The game's own from 26.4 on."""
 
 
