@@ -7,8 +7,8 @@ The first thing that is not as planned ends it: every key goes up, and the body 
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, field
-from itertools import pairwise, product
+from dataclasses import dataclass, field, replace
+from itertools import pairwise
 
 from mc_nested.arena.action import Cell
 from mc_nested.arena.rules import front_of, is_inside
@@ -18,7 +18,7 @@ from mc_nested.live.model.kinematics import TICK_S
 from mc_nested.live.model.reading import Target
 from mc_nested.live.model.timing import EARLY_LOOK_S, HALF_FRAME_S, THIRD_FRAME_S, surely_seen_after
 from mc_nested.live.motion.locomotion import Locomotion
-from mc_nested.live.motion.overlap_plan import FORWARD, SEEN_TICKS, Change, Leg, Plan, Planner, Surroundings, Walk
+from mc_nested.live.motion.overlap_plan import FORWARD, SEEN_TICKS, Leg, Plan, Planner, Surroundings, Walk
 from mc_nested.live.motion.pose_observer import PoseEstimate, PoseObserver
 from mc_nested.live.motion.walk_tracker import MATCH, SLIPPERY, SLIPPERY_MATCH, CoastingState
 from mc_nested.live.profile.tables import Profile
@@ -32,14 +32,8 @@ LOOK_S = THIRD_FRAME_S / 2
 TOO_LATE_S = TICK_S / 2 - HALF_FRAME_S
 """Seconds after the middle of a gap from which on a press may be felt a tick later."""
 
-SHIFTS = (0, 1, -1)
-"""Ticks that a key may be felt later than planned, likeliest first."""
-
 EARLY_S = TICK_S / 2 + EARLY_LOOK_S
 """Seconds before a step is surely seen at which it may be seen first."""
-
-MOST_PLANS = 2
-"""How often an action is planned anew: a key that is felt a tick later again and again isn't felt at all."""
 
 SHOWN_TICKS = 3
 """Ticks after the gap of a click within which its block is seen: it is felt a tick late at most, and shown for two."""
@@ -62,18 +56,15 @@ class _Action:
     sees_floor: bool = False
     is_clicked: bool = False
     is_front_right: bool = False
-    planned_anew: int = 0
     swept: list[GroundVector] = field(default_factory=list)
 
     def is_done(self, tick: int) -> bool:
         """Return whether all of it was seen by that tick: the end of its walk, the cell, and what stands in front."""
         return self.was_there and self.is_front_right and tick > self.plan.release
 
-
     @property
     def last_tick(self) -> int:
-        """The last tick after which it can be seen to be done: a block is in view for a tick or two, a click late by one.
-        """
+        """The last tick after which it can be seen to be done: a block is in view for a tick or two, a click late by one."""
         plan = self.plan
         late = plan.stop + SEEN_TICKS if plan.click is None or not self.is_clicked else plan.click + SHOWN_TICKS
         return max(late, plan.release + 1)
@@ -98,6 +89,7 @@ class Overlap:
         self._sure_s = surely_seen_after(profile.walk.capture_latency_s)
         self._mid_s = TICK_S / 2 - profile.walk.input_latency_s
         self._lag = math.ceil((self._sure_s + LOOK_S - self._mid_s) / TICK_S)
+        self._slack = SLIPPERY_MATCH if self._inertia > SLIPPERY else MATCH
         self._walk: Walk | None = None
         self._anchor = 0.0
         self._presses: list[tuple[int, Leg, int]] = []
@@ -187,10 +179,17 @@ class Overlap:
             self._controller.wait_until(look_at)
             looked_at = self._clock.now()
             pose = self._look()
-            found = self._followed(self._walk, pose.position, tick, is_sure=looked_at >= sure_at)
-            if found is None and looked_at < sure_at + THIRD_FRAME_S:
-                continue  # the picture is an older one
-            if found is None or not self._takes_in(action, found, pose, self._walk.positions(tick - 1)[tick - 1]):
+            states = self._walk.states(tick)
+            off = states[-1].position.minus(pose.position)
+            if max(abs(off.right), abs(off.forward)) > self._slack:
+                if looked_at < sure_at + THIRD_FRAME_S:
+                    continue  # the picture is an older one
+                return False
+            state = CoastingState(pose.position, states[-1].velocity, self._inertia)
+            self._walk = replace(self._walk, tick=tick, state=state)
+            if action.is_clicked:
+                action.swept.append(pose.position)
+            if not self._is_right(action, pose, states[-2].position):
                 return False
             if action.is_done(tick):
                 return True
@@ -202,33 +201,6 @@ class Overlap:
         off = after.minus(before)
         is_awaited = action.plan.click is not None and action.is_clicked and tick > action.plan.click
         return EARLY_S if is_awaited and max(abs(off.right), abs(off.forward)) > 2 * SLIPPERY_MATCH else 0.0
-
-    def _takes_in(self, action: _Action, found: Walk, pose: PoseEstimate, eyes: GroundVector) -> bool:
-        """Take in what was seen of a tick; return whether all is as planned, or can be planned anew."""
-        is_late = self._walk is not None and found.changes != self._walk.changes
-        self._walk = Walk(found.tick, found.state, _pruned(found.changes, found.tick))
-        if action.is_clicked:
-            action.swept.append(pose.position)
-        return self._is_right(action, pose, eyes) and (not is_late or self._plans_anew(action))
-
-    def _followed(self, walk: Walk, seen: GroundVector, tick: int, *, is_sure: bool) -> Walk | None:
-        """Return the walker after a tick, where it was seen; with the gaps in which its keys were felt.
-
-        Return None if it can't be there then. Before that tick is surely seen, no key counts as felt late: an older
-        picture would look like that.
-        """
-        known = [change for change in walk.changes if change.gap < walk.tick or change.gap >= tick]
-        unsure = [change for change in walk.changes if walk.tick <= change.gap < tick]
-        slack = SLIPPERY_MATCH if self._inertia > SLIPPERY else MATCH
-        possible = product(SHIFTS if is_sure else SHIFTS[:1], repeat=len(unsure))
-        for shifts in sorted(possible, key=lambda each: sum(map(abs, each))):
-            moved = [each._replace(gap=each.gap + shift) for each, shift in zip(unsure, shifts, strict=True)]
-            changes = tuple(sorted([*known, *moved], key=lambda change: change.gap))
-            state = Walk(walk.tick, walk.state, changes).states(tick)[-1]
-            off = state.position.minus(seen)
-            if max(abs(off.right), abs(off.forward)) <= slack:
-                return Walk(tick, CoastingState(seen, state.velocity, state.inertia), changes)
-        return None
 
     def _is_right(self, action: _Action, pose: PoseEstimate, eyes: GroundVector) -> bool:
         """Take in what is looked at from where the eyes were; return whether it is what must stand there."""
@@ -252,40 +224,19 @@ class Overlap:
         action.is_front_right |= is_right and not leg.places
         return is_right
 
-    def _plans_anew(self, action: _Action) -> bool:
-        """Plan what is left of an action once a key was felt at another time; return whether that is possible."""
-        action.planned_anew += 1
-        if action.planned_anew > MOST_PLANS:
-            return False  # the key was lost
-        walk, first = self._walk, self._first_gap()
-        if walk is None or action.is_clicked:
-            return walk is not None  # the next action's plan begins with what was seen
-        has_begun = action.plan.start is not None and not self._presses
-        walk = Walk(walk.tick, walk.state, tuple(change for change in walk.changes if change.gap < first))
-        plan = (
-            action.planner.end(walk, action.leg, action.after or action.leg, first)
-            if has_begun
-            else action.planner.plan(walk, action.leg, None, first, action.after, self._sprint_gap())
-        )
-        if plan is None:
-            return False
-        self._walk, self._presses, action.plan = walk, [], plan
-        self._schedule(action, None)
-        return True
-
     def _schedule(self, action: _Action, press: int | None) -> None:
         """Note what is to be pressed when, and when the keys that are down go up."""
         plan, walk = action.plan, self._walk
         up = plan.stop if plan.start is None else plan.release
+        self._presses = [(gap, leg, up) for gap, leg, _ in self._presses]
         if press is not None:
             self._presses = [(press, action.leg, up)]
         else:
-            self._presses = [(gap, leg, up) for gap, leg, _ in self._presses]
             self._controller.keep_until(self._time(up), self._key(action.leg))
         if plan.start is not None and action.after is not None:
             self._presses.append((plan.start, action.after, plan.stop))
         changes = plan.changes if action.after is None else plan.changes[:-1]
-        self._walk = walk and Walk(walk.tick, walk.state, changes)
+        self._walk = walk and replace(walk, changes=changes)
 
     def _send(self, action: _Action, until: float) -> bool:
         """Press and click what is due before a look; return whether it went out in time."""
@@ -356,9 +307,3 @@ class Overlap:
         """Return the tick whose step is looked at next: a later one, if the time of the next look has passed."""
         late = self._clock.now() - self._time_of_look(walk.tick + 1) - HALF_FRAME_S
         return walk.tick + 1 + max(0, math.ceil(late / TICK_S))
-
-
-def _pruned(changes: tuple[Change, ...], tick: int) -> tuple[Change, ...]:
-    """Return the changes that matter from a tick on: the last one that was felt by then, and those after it."""
-    felt = [at for at, change in enumerate(changes) if change.gap < tick]
-    return changes[felt[-1] if felt else 0 :]

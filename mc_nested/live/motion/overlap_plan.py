@@ -10,7 +10,7 @@ or two too late, would place the same block or none.
 
 import math
 from collections.abc import Collection, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 from mc_nested.arena.action import Cell
@@ -107,7 +107,7 @@ class Walk:
 
     def also(self, *changes: Change) -> "Walk":
         """Return the same walker, whose keys change so as well."""
-        return Walk(self.tick, self.state, (*self.changes, *changes))
+        return replace(self, changes=(*self.changes, *changes))
 
 
 @dataclass(frozen=True)
@@ -209,11 +209,6 @@ class Planner:
         starts = range(earliest, release + MOST_WAIT + 1)
         turns = (self._turn(walk, leg, after, (release, start), first) for start in starts)
         return next((plan for plan in turns if plan is not None), None)
-
-    def end(self, walk: Walk, leg: Leg, after: Leg, first: int) -> Plan | None:
-        """Return how an action ends while the next one's key is down already."""
-        stop = self._release(walk, after, first)
-        return None if stop is None else self._try(walk, leg, Change(stop, AT_REST), (first, None), first)
 
     def _turn(self, walk: Walk, leg: Leg, after: Leg, gaps: tuple[int, int], first: int) -> Plan | None:
         """Return the plan in which the key goes up in the first of these gaps, and the next one down in the second."""
