@@ -90,12 +90,8 @@ def _restored(clipboard: Clipboard) -> Iterator[None]:
 
 def _copied(connection: GameConnection, profile: Profile) -> tuple[float, ...]:
     """Return x, y, z, yaw and pitch as F3+C copies them."""
-    controller, clock, clipboard, debug = (
-        connection.controller,
-        connection.devices.clock,
-        connection.devices.clipboard,
-        profile.keys.debug,
-    )
+    controller, debug = connection.controller, profile.keys.debug
+    clock, clipboard = connection.devices.clock, connection.devices.clipboard
     recovery = Recovery(profile, connection)
     for _ in range(TRIES):
         recovery.recover()  # if the letter was lost, F3 alone has switched the debug screen off

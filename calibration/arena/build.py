@@ -175,7 +175,7 @@ def build_arena(
     old = noted.arena if noted else profile.arena
     first = _first_copy(queries, arena, [each.arena for each in (noted, profile) if each and each.arena])
     if first is not None:
-        ground, arena = dataclasses.replace(ground, copy_to=None), _with_copy(arena, first)
+        ground, arena = dataclasses.replace(ground, copy_to=None), arena.model_copy(update={"copied_to": first})
     elif path and noted and noted.arena and _overlaps_copied(queries, noted.arena, arena):
         raise UserError(
             "an arena of a calibration that ended early stands here: put back what stood there before, with "
@@ -225,10 +225,6 @@ def _copied(console: CommandConsole, queries: BlockQueries, arena: Arena, to: Bl
     console.send(copy_command(box, to))
     if not queries.are_alike(box, to):
         raise NotConfirmedError(f"the copy to {to} was not seen to be made: nothing else was changed, try again")
-    return _with_copy(arena, to)
-
-
-def _with_copy(arena: Arena, to: Block) -> Arena:
     return arena.model_copy(update={"copied_to": to})
 
 

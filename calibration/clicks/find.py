@@ -181,11 +181,11 @@ def picture_file(profile: Path) -> Path:
 def _walk_menus(walk: MenuWalk, context: CalibrationContext) -> None:
     walk.visit_pause_menu()
     if not walk.is_single_player:
-        walk.note("the title and the list of worlds: not visited, since this may not be a world of your own")
+        walk.notes.append("the title and the list of worlds: not visited, since this may not be a world of your own")
     elif context.ask(QUESTION):
         walk.visit_title()
     else:
-        walk.note("the title and the list of worlds: not visited")
+        walk.notes.append("the title and the list of worlds: not visited")
 
 
 def _result(profile: Profile, notes: Sequence[str], points: Sequence[RecordedPoint], scale: int | None) -> StepResult:

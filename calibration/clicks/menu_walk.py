@@ -62,6 +62,7 @@ class MenuWalk:
         self._game = game_in(self._display.title(), profile.game)
         self.points: dict[str, RecordedPoint] = {}
         self.notes: list[str] = []
+        """What the person is told afterwards, a line each."""
         self.is_single_player = False
         say(f"Switch to the game with {SWITCH_KEYS}. Its menus are gone through now: leave mouse and keys alone.")
         wait_for_front(connection.devices)
@@ -69,10 +70,6 @@ class MenuWalk:
         self._before = wait_until_standing_still(connection)
         self._size = self._display.size()
         self.scale = self._screen.gui_scale()
-
-    def note(self, text: str) -> None:
-        """Record a line for the person."""
-        self.notes.append(text)
 
     def visit_pause_menu(self) -> None:
         """Find the Game Menu's buttons, and whether this is surely a single player's world. Then return there."""
@@ -87,7 +84,7 @@ class MenuWalk:
                 and (is_told_by_title or menu.button(OWN).is_enabled)
             )
         else:
-            self.note("the Game Menu: no English label is seen after Esc, so nothing of it was recorded")
+            self.notes.append("the Game Menu: no English label is seen after Esc, so nothing of it was recorded")
         self._return()
 
     def visit_title(self) -> None:
@@ -148,20 +145,20 @@ class MenuWalk:
                 clean = without_chat(frame, button.scale, [_button_region(button)]) if is_over_world else frame
                 self._record(name, button.middle, clean)
                 return
-        self.note(f"{name}: {next((each.problem for each in seen if each.problem), 'not seen')}")
+        self.notes.append(f"{name}: {next((each.problem for each in seen if each.problem), 'not seen')}")
 
     def _find_world(self) -> None:
         """Record the topmost world of the list, which is the one that was just left, and the button that plays it."""
         pixel = self._topmost_world(self._picture())
         if pixel is None:
-            self.note(f"{WORLD}: no name of a world is seen in the list")
+            self.notes.append(f"{WORLD}: no name of a world is seen in the list")
             return
         self._hover(pixel)
         frame = self._picture()
         self._controller.confirm_screen("menu")
         self._controller.click_at(*pixel)
         if not self._wait_until(lambda: self._screen.menu().button(PLAY).is_enabled, MENU_S):
-            self.note(f"{WORLD}: a click on the topmost name of the list didn't choose it")
+            self.notes.append(f"{WORLD}: a click on the topmost name of the list didn't choose it")
             return
         self._record(WORLD, pixel, frame)
         self._find(PLAY_IT, (PLAY,))

@@ -140,10 +140,6 @@ def _slot_before(changed_dots: list[float]) -> int:
     return most if changed_dots[most] >= LEAST_DOTS else 0
 
 
-def _has_moved(start: WindowSnapshot, seen: WindowSnapshot) -> bool:
-    return (_distance(_position(start), _position(seen)) or 0.0) > LEAST_STEP
-
-
 def _distance(before: XYZ | None, after: XYZ | None) -> float | None:
     """Return the blocks over ground from one position to another; None if one of them wasn't read."""
     if before is None or after is None:
@@ -156,7 +152,7 @@ def _position(snapshot: WindowSnapshot) -> XYZ | None:
 
 
 def _has_moved_or_stopped(start: WindowSnapshot, seen: WindowSnapshot) -> bool:
-    return is_menu(seen) or _has_moved(start, seen)
+    return is_menu(seen) or (_distance(_position(start), _position(seen)) or 0.0) > LEAST_STEP
 
 
 def _stand_still(window: TriedWindow) -> XYZ | None:

@@ -182,7 +182,9 @@ class InputController:
     def type_line(self, text: str) -> None:
         """Type a line into the open chat, without sending it."""
         for letter in text:
-            self._type(letter)
+            with self._lock:
+                self._check_press("chat")
+                self._keyboard.type(letter)
 
     def wait(self, seconds: float) -> None:
         """Let that many seconds pass, and release what is due."""
@@ -264,16 +266,13 @@ class InputController:
         The caller holds no lock: a look may take long, and meanwhile others must be able to release everything.
         """
         try:
-            self._refresh(screen)
+            if self._confirmed and self._confirmed[0] == screen and not self._is_fresh(screen) and self._look_again:
+                self._look_again()
             if screen == "world":
                 self._look_for_world()
         except BaseException:
             self.release_all()
             raise
-
-    def _refresh(self, screen: PressTarget) -> None:
-        if self._confirmed and self._confirmed[0] == screen and not self._is_fresh(screen) and self._look_again:
-            self._look_again()
 
     def _look_for_world(self) -> None:
         """Return once the world is seen with nothing over it, by the last look before the press.
@@ -314,11 +313,6 @@ class InputController:
         self._check_running()
         if not self._is_fresh(screen):
             raise WrongScreenError(f"the {screen} was not just seen on the screen, so nothing is pressed: look first")
-
-    def _type(self, letter: str) -> None:
-        with self._lock:
-            self._check_press("chat")
-            self._keyboard.type(letter)
 
     def _press_key(self, key: str, until: float, on: PressTarget) -> None:
         self._press(f"key {key}", partial(self._keyboard.press, key), partial(self._keyboard.release, key), until, on)

@@ -14,7 +14,7 @@ from types import TracebackType
 from typing import Protocol
 
 from mc_nested.live.devices import Devices
-from mc_nested.live.journal import Fact, NoteKind
+from mc_nested.live.journal import Fact, Journal, NoJournal, NoteKind
 from mc_nested.live.recording.call_encoder import CallEncoder, KeptPicture
 from mc_nested.live.recording.format import SUFFIX, event_of
 from mc_nested.live.recording.recorded_devices import RecordedScreen, recorded
@@ -25,8 +25,8 @@ from mc_nested.live.vision.game_screen import GameScreen, WindowScreen
 Stop = Callable[[str], None]
 
 
-class Recording(Protocol):
-    """Sits between a run and its window, and records what passes. It is a journal, too."""
+class Recording(Journal, Protocol):
+    """Sits between a run and its window, and records what passes; and the notes of a journal."""
 
     def devices(self, devices: Devices) -> Devices:
         """Return the same devices, recorded."""
@@ -37,11 +37,8 @@ class Recording(Protocol):
     def stopping(self, stop: Stop) -> Stop:
         """Return what stops the run by a person's will, recorded."""
 
-    def note(self, kind: NoteKind, /, **facts: Fact) -> None:
-        """Record a note of the journal."""
 
-
-class NoRecording:
+class NoRecording(NoJournal):
     """Sits between a run and its window, and records nothing."""
 
     def devices(self, devices: Devices) -> Devices:
@@ -52,9 +49,6 @@ class NoRecording:
 
     def stopping(self, stop: Stop) -> Stop:
         return stop
-
-    def note(self, kind: NoteKind, /, **facts: Fact) -> None:
-        """Do nothing."""
 
 
 WRITE_EVERY_S = 0.25

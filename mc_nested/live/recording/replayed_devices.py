@@ -83,10 +83,14 @@ def replayed(tape: ReplayedTape, size: tuple[int, int], title: str) -> Devices:
     return Devices(_Display(tape, size, title), _Keyboard(tape), _Pointer(tape), _Clock(tape), _Clipboard(tape))
 
 
-class _Clock:
+class OnReplayedTape:
+    """What answers from a tape."""
+
     def __init__(self, tape: ReplayedTape) -> None:
         self._tape = tape
 
+
+class _Clock(OnReplayedTape):
     def now(self) -> float:
         return float(self._tape.same("now")[0])
 
@@ -116,10 +120,7 @@ class _Display:
         return np.zeros((height, width, 3), np.uint8)
 
 
-class _Keyboard:
-    def __init__(self, tape: ReplayedTape) -> None:
-        self._tape = tape
-
+class _Keyboard(OnReplayedTape):
     def go_by_symbols(self, keys: Collection[str]) -> None:
         """Do nothing: a tape has the keys that were meant, whatever this desktop would have pressed for them."""
 
@@ -135,10 +136,7 @@ class _Keyboard:
         self._tape.same("key", "type", text)
 
 
-class _Pointer:
-    def __init__(self, tape: ReplayedTape) -> None:
-        self._tape = tape
-
+class _Pointer(OnReplayedTape):
     def position(self) -> tuple[int, int]:
         x, y = self._tape.same("position")[0]
         return int(x), int(y)
@@ -154,10 +152,7 @@ class _Pointer:
             self._tape.same("mouse", "release", button)
 
 
-class _Clipboard:
-    def __init__(self, tape: ReplayedTape) -> None:
-        self._tape = tape
-
+class _Clipboard(OnReplayedTape):
     def read(self) -> str:
         self._tape.same("clipboard", "read")
         return ""

@@ -15,7 +15,7 @@ from mc_nested.live.devices import Frame, Region
 from mc_nested.live.model.reading import Reading
 from mc_nested.live.recording.call_encoder import KeptPicture
 from mc_nested.live.recording.format import button_of, plain_value, position_of, reading_of, region_of
-from mc_nested.live.recording.replayed_devices import ReplayedTape
+from mc_nested.live.recording.replayed_devices import OnReplayedTape, ReplayedTape
 from mc_nested.live.recording.text_pixels import OUTSIDE, TextPixels, paint
 from mc_nested.live.vision.font import Font
 from mc_nested.live.vision.game_screen import Labels, WindowScreen
@@ -196,10 +196,7 @@ class ReplayedScreen:
         return self._tape.same("screen", name, list(asked))[0]
 
 
-class _Labels:
-    def __init__(self, tape: ReplayedTape) -> None:
-        self._tape = tape
-
+class _Labels(OnReplayedTape):
     def shows(self, text: str) -> bool:
         return bool(self._tape.same("menu", "shows", text)[0])
 

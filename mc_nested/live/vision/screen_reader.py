@@ -49,7 +49,7 @@ def sign_of_no_block(lines: ScreenLines, font: Font) -> bytes | None:
     row, _ = lines.positions_seen[POSITION][0]
     beside = dots.frame[row * overlay.scale]
     # In a picture that is shifted the bars lie elsewhere.
-    has_bar = any(_is_of(beside[column], WHITE) for column in _edges(dots.frame, overlay.scale))
+    has_bar = any(_are_of(beside[column], WHITE) for column in _edges(dots.frame, overlay.scale))
     if not has_bar or columns_are_full(dots, font, overlay, _ROOM):
         return None
     return _bars(dots.frame, overlay.scale)
@@ -91,10 +91,6 @@ def _edges(frame: Frame, scale: int) -> tuple[int, ...]:
 def _are_of(pixels: Frame, colour: Colour) -> Bools:
     alike: Bools = np.all(np.abs(pixels.astype(np.int16) - colour[::-1]) <= INK_SPREAD, axis=-1)
     return alike
-
-
-def _is_of(pixel: Frame, colour: Colour) -> bool:
-    return bool(_are_of(pixel[np.newaxis], colour)[0])
 
 
 @dataclass(frozen=True)

@@ -18,7 +18,7 @@ Where nothing is looked at there is no box.
 import re
 
 from mc_nested.live.model.reading import XYZ, Block, Target
-from mc_nested.live.vision.overlay import TITLE
+from mc_nested.live.vision.overlay import TITLE, version_in
 from mc_nested.live.vision.screen_lines import (
     CLEAR,
     WHOLE,
@@ -45,7 +45,6 @@ _ID = re.compile(rf"(([a-z0-9_.-]+):[a-z0-9_./-]+){_BESIDE}")
 _ALONE = re.compile(rf"(?:.*{UNKNOWN})?minecraft:(?!overworld|the_)[a-z0-9_./-]+")
 _OTHER_LABEL = re.compile(r"Targeted (?:Fluid|Entity)")
 
-_VERSION = re.compile(r"Minecraft (\d+(?:\.\d+)+)")
 _FREE_ORDER = (1, 21, 9)
 """The first version whose lines can be chosen, and stand in either column."""
 
@@ -150,10 +149,7 @@ def _check_column_is_seen(lines: DebugLines) -> None:
 def _has_free_order(lines: DebugLines) -> bool:
     """Return whether the lines can be chosen in this version; without its own line they were chosen already."""
     title = next((line for line in lines.starting(TITLE) if line.is_left), None)
-    if title is None:
-        return True
-    version = _VERSION.match(title.text)
-    return version is not None and tuple(int(part) for part in version[1].split(".")) >= _FREE_ORDER
+    return title is None or (version_in(title.text) or ()) >= _FREE_ORDER
 
 
 def _check_no_id_alone(lines: DebugLines) -> None:
