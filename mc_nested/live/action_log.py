@@ -22,22 +22,33 @@ class Effort:
 
 
 @dataclass
-class ActionLog:
-    """Counts of one session. ``effort`` is the body's own; ``seconds`` has the time of each confirmed action.
+class Spent:
+    """Where the time of actions went, in seconds.
 
-    ``walked_s``, ``confirmed_s`` and ``decided_s`` say where the time went: while a key was down, while none was but an
-    action was not confirmed yet, and between two actions of an episode.
+    Walking: a key was down. Confirming: none was, but an action was not confirmed yet. Deciding: between two actions of
+    an episode.
     """
+
+    walking: float = 0.0
+    confirming: float = 0.0
+    deciding: float = 0.0
+
+    def __str__(self) -> str:
+        """Return the shares in words; empty before the first action."""
+        whole = self.walking + self.confirming + self.deciding
+        return ", ".join(f"{name} {100 * part / whole:.0f} %" for name, part in vars(self).items()) if whole else ""
+
+
+@dataclass
+class ActionLog:
+    """Counts of one session. ``effort`` is the body's own; ``seconds`` has the time of each confirmed action."""
 
     effort: Effort
     seconds: list[float] = field(default_factory=list)
-    walked_s: float = 0.0
-    confirmed_s: float = 0.0
-    decided_s: float = 0.0
+    spent: Spent = field(default_factory=Spent)
     failed_actions: int = 0
     failed_resets: int = 0
     recoveries: int = 0
-
     _began: float = 0.0
     _ended: float | None = None
     _held_s: float = 0.0
@@ -45,32 +56,26 @@ class ActionLog:
     def begins(self, at: float, held_s: float) -> None:
         """Take note that an action begins; ``held_s`` is for how long keys have been down until then."""
         if self._ended is not None:
-            self.decided_s += at - self._ended
+            self.spent.deciding += at - self._ended
         self._began, self._held_s = at, held_s
 
     def ends(self, at: float, held_s: float) -> None:
         """Take note that an action was confirmed."""
         self.seconds.append(at - self._began)
-        self.walked_s += held_s - self._held_s
-        self.confirmed_s += at - self._began - (held_s - self._held_s)
+        self.spent.walking += held_s - self._held_s
+        self.spent.confirming += at - self._began - (held_s - self._held_s)
         self._ended = at
 
     def pauses(self) -> None:
         """Take note that what comes before the next action is none of the three."""
         self._ended = None
 
-    def shares(self) -> str:
-        """Return where the time of the actions went, in words; empty before the first."""
-        every = {"walking": self.walked_s, "confirming": self.confirmed_s, "deciding": self.decided_s}
-        whole = sum(every.values())
-        return ", ".join(f"{name} {100 * part / whole:.0f} %" for name, part in every.items()) if whole else ""
-
     def summary(self) -> dict[str, Any]:
         """Return all counts as plain numbers; the seconds as percentiles, None before the first action."""
         return {
             "actions": len(self.seconds),
             "action_s": {f"p{share}": percentile(self.seconds, share) for share in (50, 95, 99)},
-            "share": self.shares(),
+            "share": str(self.spent),
             "overlapped": self.effort.overlapped,
             "moves": self.effort.moves,
             "corrections": self.effort.corrections,

@@ -189,7 +189,7 @@ class LiveGame:
             told["following"] = (int(following[0]), following[1])
         self._journal.note("acts", action=int(action), cell=cell, **told)
         began = self._clock.now()
-        self.log.begins(began, self._controller.held_s)
+        self.log.begins(began, self._controller.held_s(began))
         self._controller.is_attended = True
         try:
             if material is not None:
@@ -205,9 +205,8 @@ class LiveGame:
             self._controller.release_all()
         self._controller.is_attended = False
         ended = self._clock.now()
-        self.log.ends(ended, self._controller.held_s)
-        facts: dict[str, Fact] = {"cell": outcome.cell, "placed": outcome.placed, "seconds": ended - began}
-        self._journal.note("done", **facts, share=self.log.shares())
+        self.log.ends(ended, self._controller.held_s(ended))
+        self._journal.note("done", cell=outcome.cell, placed=outcome.placed, seconds=ended - began)
         self._cell = outcome.cell
         self._announced = following if self._body.is_under_way else None
         if outcome.placed is not None:

@@ -8,7 +8,9 @@ from dataclasses import dataclass
 from typing import Any, cast
 
 from mc_nested.arena.action import Action, Cell
+from mc_nested.live.action_log import Spent
 from mc_nested.live.journal import Fact, NoteKind
+from mc_nested.live.model.kinematics import TICK_S
 from mc_nested.view.status import FORMAT, MOST_ACTIONS, ActionSeen, Mood, ReadingSeen, Status
 
 MOVES = {"F": "forward", "B": "back", "L": "left", "R": "right"}
@@ -119,6 +121,8 @@ class Board:
         self._own = "begins"
         self._before_waiting = Doing(self._own)
         self._lock = threading.Lock()
+        self._spent, self._held_s = Spent(), 0.0
+        self._done_at: float | None = None
 
     def note(self, kind: NoteKind, /, **facts: Fact) -> None:
         """Take a note of the journal."""
@@ -129,15 +133,27 @@ class Board:
         elif kind in DETAIL:
             self._wait_no_longer()
             self._fields["detail"] = detail_of(kind, facts)
+            self._held_s += cast("int", facts.get("ticks", 0)) * TICK_S
         elif kind == "done":
             with self._lock:
                 self._actions.append(action_seen(self._action, facts))
-                self._fields["share"] = str(facts.get("share", ""))
+            self._spend(cast("float", facts["seconds"]))
             self._begin(Doing("chooses what to do next, or practises"))
         elif doing := doing_of(kind, facts):
             if kind == "acts":
                 self._action = Action(cast("int", facts["action"]))
+                self._spent.deciding += 0.0 if self._done_at is None else self._clock() - self._done_at
+            self._done_at = None
             self._begin(doing)
+
+    def _spend(self, seconds: float) -> None:
+        """Count the time of an action that took so many seconds; keys were down for the ticks that were planned."""
+        walking = min(self._held_s, seconds)
+        self._held_s -= walking
+        self._spent.walking += walking
+        self._spent.confirming += seconds - walking
+        self._done_at = self._clock()
+        self._fields["share"] = str(self._spent)
 
     def does(self, text: str) -> None:
         """Set what the run does from now on; repeating it changes nothing."""

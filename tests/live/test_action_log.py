@@ -73,3 +73,17 @@ def test_progress_since_the_last_failure_restarts_the_count_of_failures_at_one()
         failure_budget.record_failure(ERROR, steps := steps + PROGRESS - 1)
     with pytest.raises(NotConfirmedError, match="looks away"):
         failure_budget.record_failure(ERROR, steps)
+
+
+def test_the_time_of_actions_is_walking_confirming_or_deciding() -> None:
+    """Two actions of 0.4 and 0.2 s, keys down for 0.3 and 0.2 of them, 0.1 s between them, and a reset after."""
+    log = ActionLog(Effort())
+    assert str(log.spent) == ""
+    log.begins(10.0, 1.0)
+    log.ends(10.4, 1.3)
+    log.begins(10.5, 1.3)
+    log.ends(10.7, 1.5)
+    log.pauses()
+    log.begins(20.0, 1.5)
+    assert vars(log.spent) == pytest.approx({"walking": 0.5, "confirming": 0.1, "deciding": 0.1})
+    assert str(log.spent) == "walking 71 %, confirming 14 %, deciding 14 %"

@@ -93,10 +93,8 @@ class InputController:
             releases.callback(self.release_all)
         atexit.unregister(self.release_all)
 
-    @property
-    def held_s(self) -> float:
-        """For how many seconds anything was down so far."""
-        now = self._clock.now()
+    def held_s(self, now: float) -> float:
+        """Return for how many seconds anything was down until now."""
         if self._down_since is not None:
             self._down_s += now - self._down_since
             self._down_since = now if self._held else None
@@ -199,8 +197,7 @@ class InputController:
                 self._clock.sleep_until(min(soonest, at))
                 now = self._clock.now()
                 self._release([name for name, held in list(self._held.items()) if held.due <= now])
-                if self._down_since is not None and not self._held:
-                    self._down_s, self._down_since = self._down_s + now - self._down_since, None
+                self.held_s(now)
                 if now >= at:
                     return
                 self._check_running()

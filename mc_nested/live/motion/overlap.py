@@ -64,7 +64,7 @@ class _Action:
 
     @property
     def last_tick(self) -> int:
-        """The last tick after which it can be seen to be done: a block is in view for a tick or two, a click late by one."""
+        """The last tick after which it can be seen to be done."""
         plan = self.plan
         late = plan.stop + SEEN_TICKS if plan.click is None or not self.is_clicked else plan.click + SHOWN_TICKS
         return max(late, plan.release + 1)
