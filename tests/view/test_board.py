@@ -136,6 +136,18 @@ def test_board_keeps_the_last_actions_with_their_names() -> None:
     assert actions[-1] == ActionSeen("R+D", (MOST_ACTIONS + 5, 0), None, 0.3)
 
 
+def test_where_the_time_of_actions_goes_is_said_by_their_notes() -> None:
+    """0.5 s with a key down for 8 ticks, 0.1 s of choosing, 0.3 s with a key down for 4 ticks."""
+    board, clock = a_board()
+    for ticks, seconds in ((8, 0.5), (4, 0.3)):
+        board.note("acts", action=0, cell=(0, 0))
+        board.note("plans", key="w", ticks=ticks, sneak=False)
+        board.note("done", cell=(0, 1), placed=None, seconds=seconds)
+        clock.now += 0.1
+
+    assert board.status().share == "walking 67 %, confirming 22 %, deciding 11 %"
+
+
 def test_the_last_reading_is_kept() -> None:
     board, _ = a_board()
     assert board.status().reading is None
