@@ -1,8 +1,9 @@
-"""Draws the pictures of the rehearsal window, and README's film.
+"""Draws the pictures of the documentation that show a game, and README's film.
 
     python scripts/draw.py rehearsal [OUT.png]                           the rehearsal window: the diamond, half built
     python scripts/draw.py film [OUT.gif|OUT.mp4] [--scenario zigzag]    a policy builds in the rehearsal window
     python scripts/draw.py view [FOLDER] [--seconds 45]                  the live view, and the calibration report
+    python scripts/draw.py overlap [OUT.png]                             actions that wait, and that overlap
 
 On Linux the rehearsal needs a display with OpenGL; Xvfb's will do (xvfb-run -a). Film
 and view calibrate from nothing, which takes two minutes, on a display of their own. The view is looked at after so many
@@ -38,6 +39,7 @@ from mc_nested.live.input.signals import signals_as_exit
 from mc_nested.live.profile.arena import Arena
 from mc_nested.view.app import ViewApp
 from scripts.benches.rehearsal import prepare
+from scripts.overlap_picture import draw_overlap
 from scripts.programs import ROOT
 from scripts.rehearsal_window import mc_nested, open_rehearsal
 from scripts.window_display import open_display, running
@@ -64,15 +66,18 @@ def main() -> int:
     """Draw what is asked for; return the exit code."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     names = parser.add_subparsers(dest="name", required=True)
-    rehearsal, film, view = (names.add_parser(each) for each in ("rehearsal", "film", "view"))
-    for each, picture in ((rehearsal, "rehearsal.png"), (film, "build.gif"), (view, "")):
-        each.add_argument("out", nargs="?", type=Path, default=ROOT / "scripts" / picture)
-    film.add_argument("--scenario", default="zigzag")
-    view.add_argument("--seconds", type=float, default=45.0)
+    pictures = {"rehearsal": "rehearsal.png", "film": "build.gif", "view": "", "overlap": "overlap.png"}
+    parsers = {name: names.add_parser(name) for name in pictures}
+    for name, picture in pictures.items():
+        parsers[name].add_argument("out", nargs="?", type=Path, default=ROOT / "scripts" / picture)
+    parsers["film"].add_argument("--scenario", default="zigzag")
+    parsers["view"].add_argument("--seconds", type=float, default=45.0)
     options = parser.parse_args()
     try:
         if options.name == "rehearsal":
             draw_rehearsal(options.out)
+        elif options.name == "overlap":
+            draw_overlap(options.out)
         elif options.name == "film":
             draw_film(options.scenario, options.out)
         else:

@@ -37,6 +37,7 @@ SIZES = {
     "python scripts/bench.py reader": "--frames 20 --tesseract 0",
     "python scripts/bench.py rehearsal": "--actions 4 --only '60 fps' --json",
     "python scripts/draw.py film": "film.gif --scenario line",
+    "python scripts/draw.py overlap": "/dev/null",
     "python scripts/draw.py view": ". --seconds 15",
 }
 """The smallest sizes, which are appended to a slow command that begins so. The longest beginning that fits counts."""
