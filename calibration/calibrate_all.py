@@ -96,16 +96,13 @@ def run_steps(
         finally:
             context.controller.release_all()
         if (now := display.size()) != size:
-            raise _named(step, _resized(size, now))
+            was, is_now = (f"{each[0]} x {each[1]}" for each in (size, now))
+            resized = f"the window was {was} pixels and is {is_now}: leave it as it is, and start again"
+            raise _named(step, DesktopError(resized))
         results.append(result)
         profile = result.profile
         progress.end(result, clock.now() - started_at)
     return RunResult(profile, tuple(results), skipped)
-
-
-def _resized(before: tuple[int, int], now: tuple[int, int]) -> DesktopError:
-    was, is_now = (f"{size[0]} x {size[1]}" for size in (before, now))
-    return DesktopError(f"the window was {was} pixels and is {is_now}: leave it as it is, and start again")
 
 
 def _named(step: CalibrationStep, error: McNestedError) -> McNestedError:
@@ -168,7 +165,9 @@ def calibrate_all(
     """
     path, profile = starting_profile(profile_name)
     checks = examine(profile_name)
-    check_gates(checks)
+    for check in checks:
+        if check.status == "fail" and check.name in GATES:
+            raise DesktopError(f"{check.name}: {check.detail}: {check.fix or 'run mc-nested doctor'}")
     progress.doctor_done(checks)
     with undo_hint_on_error(path), open_context(profile) as context:
         display = context.devices.display
@@ -185,13 +184,6 @@ def calibrate_all(
     checks = examine(profile_name)
     save_findings_or_warn(context.say, path, run.results, checks, fingerprint.date)
     return CalibrationResult(path, run, checks)
-
-
-def check_gates(checks: Sequence[Check]) -> None:
-    """Raise DesktopError with the remedy of the first gate that fails."""
-    for check in checks:
-        if check.status == "fail" and check.name in GATES:
-            raise DesktopError(f"{check.name}: {check.detail}: {check.fix or 'run mc-nested doctor'}")
 
 
 def _fingerprint(run: RunResult, devices: Devices, day: str) -> CalibratedTable:

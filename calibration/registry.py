@@ -9,7 +9,6 @@ from calibration.arena.build import build_arena
 from calibration.arena.mark import check_standing
 from calibration.calibrate_all import CalibrationStep
 from calibration.clicks.find import find_clicks_unattended
-from calibration.context import CalibrationContext, StepResult
 from calibration.cross_check import cross_check
 from calibration.font.find import find_font, sources_for, sources_here
 from calibration.font.sources import FontSources
@@ -17,7 +16,6 @@ from calibration.walk.measure import walk
 from mc_nested.arena.action import Cell
 from mc_nested.arena.scenario import DEFAULT_SIZE
 from mc_nested.live.profile.arena import near_middle
-from mc_nested.live.profile.tables import Profile
 
 
 def registered_steps(
@@ -34,12 +32,8 @@ def registered_steps(
     ``build_arena``. UserError as ``check_standing``.
     """
     check_standing(near_middle(size) if standing is None else standing, size)
-
-    def find_font_step(context: CalibrationContext, profile: Profile) -> StepResult:
-        return find_font(context, profile, sources_for(context, profile, font, sources))
-
     return [
-        CalibrationStep("font", find_font_step),
+        CalibrationStep("font", lambda opened, own: find_font(opened, own, sources_for(opened, own, font, sources))),
         CalibrationStep("arena", partial(build_arena, path=path, size=size, standing=standing)),
         CalibrationStep("walk", walk),
         CalibrationStep("clicks", find_clicks_unattended, is_needed=False),

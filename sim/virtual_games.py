@@ -13,7 +13,7 @@ from mc_nested.live.input.input_controller import InputController
 from mc_nested.live.journal import Journal
 from mc_nested.live.live_game import LiveGame
 from mc_nested.live.profile.arena import Arena, size_for
-from mc_nested.live.profile.built_arena import FLOOR, Box, border_block, border_of, floor_of
+from mc_nested.live.profile.built_arena import FLOOR, border_block, border_of, floor_of
 from mc_nested.live.profile.tables import BodyTable, GameVersion, Profile
 from mc_nested.live.vision.font import Font, font_of
 from mc_nested.live.vision.game_screen import WindowScreen
@@ -86,16 +86,12 @@ def built_arena(world: VirtualWorld, scenario: Scenario) -> Arena:
     """Build the arena for a scenario into a world, and return it."""
     arena = Arena.around((_ORIGIN_X, world.floor, _ORIGIN_Z), "south", size=size_for(scenario))
     border = border_block([material.block for material in scenario.materials])
-    _fill(world, floor_of(arena), border)
+    world.fill(*floor_of(arena), border)
     low, high = arena.block_of((0, 0)), arena.block_of((scenario.size - 1, scenario.size - 1))
     world.fill((low[0], low[1] - 1, low[2]), (high[0], high[1] - 1, high[2]), FLOOR)
     for side in border_of(arena):
-        _fill(world, side, border)
+        world.fill(*side, border)
     return arena
-
-
-def _fill(world: VirtualWorld, box: Box, block: str) -> None:
-    world.fill(*box, block)
 
 
 @lru_cache(1)

@@ -115,11 +115,6 @@ def calibrate_built_arena(
     return result, path
 
 
-def shipped_materials() -> tuple[str, ...]:
-    """Return the blocks that the shipped scenarios are built of, in the order of the hotbar."""
-    return tuple(material.block for material in load_scenario("line").materials)
-
-
 def build_arena(
     context: CalibrationContext,
     profile: Profile,
@@ -155,7 +150,8 @@ def build_arena(
             "the profile's [world] has no commands: mark the arena only, with mc-nested calibrate arena --mark-only"
         )
     standing = near_middle(size) if standing is None else standing
-    materials = shipped_materials()
+    # What the shipped scenarios are built of, in the order of the hotbar.
+    materials = [material.block for material in load_scenario("line").materials]
     connection = context.connection.for_profile(profile)
     display, screen = connection.devices.display, connection.screen
     context.say("Stand on the middle of the arena's near edge, and look across it and down at the ground.")
@@ -173,7 +169,9 @@ def build_arena(
     before = ReportPicture("The ground of the arena, before", without_chat(display.grab(), seen_gui_scale(screen)))
     noted = read_copy_note(path) if path else None
     old = noted.arena if noted else profile.arena
-    first = _first_copy(queries, arena, [each.arena for each in (noted, profile) if each and each.arena])
+    # The copy of what stood there before the first arena was built in the same box, if there is one.
+    same = [each.arena for each in (noted, profile) if each and each.arena and box_of(each.arena) == box_of(arena)]
+    first = next((each.copied_to for each in same if each.copied_to and not is_copy_gone(queries, each)), None)
     if first is not None:
         ground, arena = dataclasses.replace(ground, copy_to=None), arena.model_copy(update={"copied_to": first})
     elif path and noted and noted.arena and _overlaps_copied(queries, noted.arena, arena):
@@ -204,14 +202,6 @@ def build_arena(
     with_arena = profile.model_copy(update={"arena": arena})
     undo = undo_command(path) if path else "mc-nested calibrate arena --undo"
     return StepResult("arena", with_arena, tuple(build_summary(arena, ground, undo)), looks, (before, after))
-
-
-def _first_copy(queries: BlockQueries, arena: Arena, earlier: Sequence[Arena]) -> Block | None:
-    """Return the copy, if there is one, of what stood there before the first arena was built in the same box."""
-    for old in earlier:
-        if old.copied_to and box_of(old) == box_of(arena) and not is_copy_gone(queries, old):
-            return old.copied_to
-    return None
 
 
 def _overlaps_copied(queries: BlockQueries, old: Arena, arena: Arena) -> bool:

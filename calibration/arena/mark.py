@@ -64,8 +64,10 @@ def mark_arena(
     standing = near_middle(size) if standing is None else standing
     path, profile = load_profile_with_font(profile_name, standing, size, font)
     with context_of(profile) as context:
+        middle = "the middle of the arena's near edge"
+        cell = middle if standing == near_middle(size) else f"cell {standing} of the arena"
         say(
-            f"Switch to the game with {SWITCH_KEYS}, stand on {_cell_text(standing, size)}, look across it "
+            f"Switch to the game with {SWITCH_KEYS}, stand on {cell}, look across it "
             f"along an axis of the world, and turn the debug screen on (F3). Stand still."
         )
         reading = wait_until_standing_still(context.connection.for_profile(profile))
@@ -138,7 +140,3 @@ def mark_question(arena: Arena) -> str:
         f"Every reset will remove all blocks from {low} to {high} (x, y, z; {size} high), facing {arena.facing}. "
         "What stands there now is not known: make sure that it is only air above your floor. Mark it?"
     )
-
-
-def _cell_text(cell: Cell, size: int) -> str:
-    return "the middle of the arena's near edge" if cell == near_middle(size) else f"cell {cell} of the arena"

@@ -156,7 +156,14 @@ def find_clicks(context: CalibrationContext, profile: Profile, by_hand: ByHand |
     points, notes, scale = [], ["the menus: not gone through, since the window's title names no Minecraft"], None
     if version_in(context.devices.display.title()) is not None:
         walk = MenuWalk(connection, profile, context.say)
-        _walk_menus(walk, context)
+        walk.visit_pause_menu()
+        left_out = "the title and the list of worlds: not visited"
+        if not walk.is_single_player:
+            walk.notes.append(f"{left_out}, since this may not be a world of your own")
+        elif context.ask(QUESTION):
+            walk.visit_title()
+        else:
+            walk.notes.append(left_out)
         points, notes, scale = list(walk.points.values()), walk.notes, walk.scale
     names = {point.name for point in points} | {RESPAWN}
     missing = {name: where for name, where in MENU_POINTS.items() if name not in names}
@@ -176,16 +183,6 @@ def find_clicks_unattended(context: CalibrationContext, profile: Profile) -> Ste
 def picture_file(profile: Path) -> Path:
     """Return the file of the picture that shows a profile's points."""
     return profile.with_name(f"{profile.stem}-clicks.png")
-
-
-def _walk_menus(walk: MenuWalk, context: CalibrationContext) -> None:
-    walk.visit_pause_menu()
-    if not walk.is_single_player:
-        walk.notes.append("the title and the list of worlds: not visited, since this may not be a world of your own")
-    elif context.ask(QUESTION):
-        walk.visit_title()
-    else:
-        walk.notes.append("the title and the list of worlds: not visited")
 
 
 def _result(profile: Profile, notes: Sequence[str], points: Sequence[RecordedPoint], scale: int | None) -> StepResult:

@@ -199,7 +199,8 @@ def keys_row(options: OptionsTxt, keys: KeysTable) -> Check:
     different = {action: key for action, key in bound.items() if key is None or not is_same_key(key, wanted[action])}
     if not different:
         return Check(CheckName.KEYS, "pass", f"{len(bound)} are as the profile has them")
-    detail = ", ".join(f"{action}: {_key_text(key)} for {wanted[action]}" for action, key in different.items())
+    now = {action: "another key" if key is None else key or "no key" for action, key in different.items()}
+    detail = ", ".join(f"{action}: {text} for {wanted[action]}" for action, text in now.items())
     # The game names keys by their position on a QWERTY keyboard, a profile by what is printed on them.
     if all(key is not None and len(key) == 1 == len(wanted[action]) for action, key in different.items()):
         return Check(
@@ -223,7 +224,3 @@ def _language(value: str | None) -> Check:
         return Check(CheckName.LANGUAGE, "pass", value)
     fix = f"Options > Language > English (US), or {FIX}"
     return Check(CheckName.LANGUAGE, "warn", f"{value}: menus are known by their English labels", fix)
-
-
-def _key_text(key: str | None) -> str:
-    return "another key" if key is None else key or "no key"

@@ -3,6 +3,7 @@
 The game keeps both in memory and writes the whole files: changes made meanwhile are lost.
 """
 
+import itertools
 import os
 import shutil
 import tempfile
@@ -119,19 +120,13 @@ def _written(path: Path, data: bytes) -> Path | None:
         backup = None
         if path.exists():
             shutil.copymode(path, beside)
-            backup = _backup(path)
+            unused = (path.with_name(f"{path.name}.before-{number}") for number in itertools.count(1))
+            backup = next(name for name in unused if not name.exists())
+            shutil.copy2(path, backup)
         else:
             Path(beside).chmod(_NEW_FILE_MODE)
         Path(beside).replace(path)
     except BaseException:
         Path(beside).unlink(missing_ok=True)
         raise
-    return backup
-
-
-def _backup(path: Path) -> Path:
-    number = 1
-    while (backup := path.with_name(f"{path.name}.before-{number}")).exists():
-        number += 1
-    shutil.copy2(path, backup)
     return backup

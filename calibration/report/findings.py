@@ -149,13 +149,7 @@ def load_findings(profile: Path) -> Findings:
     folder = findings_folder(profile)
     found = _read(folder)
     steps = tuple(
-        StepFindings(
-            entry.step,
-            entry.date,
-            tuple(entry.lines),
-            entry.samples,
-            tuple(_pictures(folder, entry)),
-        )
+        StepFindings(entry.step, entry.date, tuple(entry.lines), entry.samples, tuple(_pictures(folder, entry)))
         for entry in found.steps
     )
     checks = tuple(CheckFinding(row.name, row.status, row.detail, row.fix) for row in found.checks)

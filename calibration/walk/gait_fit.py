@@ -95,10 +95,8 @@ class MatchedHold:
 def match_hold(trace: HoldTrace, model: GaitModel) -> MatchedHold:
     """Return the path of whole ticks nearest a trace; ``end_error`` is positive if the trace ended farther than it."""
     asked = round(trace.held_s / TICK_S)
-    matches = [
-        _match_path(trace, model, ticks) for ticks in range(max(0, asked - MORE_OR_LESS), asked + MORE_OR_LESS + 1)
-    ]
-    return min(matches, key=lambda match: match.rms_error)
+    around = range(max(0, asked - MORE_OR_LESS), asked + MORE_OR_LESS + 1)
+    return min((_match_path(trace, model, ticks) for ticks in around), key=lambda match: match.rms_error)
 
 
 def fit_gait(traces: Sequence[HoldTrace], inertia: float | None = None) -> GaitModel:

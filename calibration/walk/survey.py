@@ -117,8 +117,7 @@ class SurveyHold:
         axis, sign = _axis_of(self.direction)
         along: list[float] = []
         for offset in self.recorded.offsets:
-            covered = offset[axis] * sign
-            if covered > (along[-1] if along else 0.0):
+            if (covered := offset[axis] * sign) > (along[-1] if along else 0.0):
                 along.append(covered)
         return HoldTrace(self.gait, self.recorded.held_s, tuple(along)) if along else None
 

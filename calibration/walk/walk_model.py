@@ -130,14 +130,10 @@ def fit_walk_model(holds: Sequence[SurveyHold]) -> WalkModel:
     good: list[MatchedHold] = []
     timings: list[HoldTiming] = []
     for hold in straight:
-        trace = hold.trace
-        if trace is None:
-            continue
-        matched = match_hold(trace, walking if hold.gait == "walk" else sneaking)
-        if matched.is_outlier:
-            continue
-        good.append(matched)
-        timings.append(hold.timing(matched.at_tick, matched.ticks))
+        matched = hold.trace and match_hold(hold.trace, walking if hold.gait == "walk" else sneaking)
+        if matched and not matched.is_outlier:
+            good.append(matched)
+            timings.append(hold.timing(matched.at_tick, matched.ticks))
     timely = [timing for timing in timings if not timing.late_steps]
     if not timely:
         raise NotConfirmedError("every hold's ticks came late: close other programs, and calibrate again")

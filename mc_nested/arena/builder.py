@@ -10,7 +10,7 @@ is found, and a design for which none is found can't be built.
 """
 
 from collections import deque
-from collections.abc import Callable, Collection
+from collections.abc import Collection
 from itertools import groupby
 
 from mc_nested.arena.action import Action, Cell
@@ -69,16 +69,13 @@ def _ending_among(stands: set[Cell], scenario: Scenario) -> list[Cell] | None:
             if not last:
                 return None
             # The nearest row goes up last, and its blocks beside one another.
-            chosen = min(last, key=_near_to(backwards[-1] if backwards else min(last)))
+            beside = (backwards[-1] if backwards else min(last))[0]
+            chosen = min(last, key=lambda cell: (cell[1], abs(cell[0] - beside), cell[0]))
             backwards.append(chosen)
             left.remove(chosen)
             placed.remove(chosen)
             _spread(stands, chosen, placed, scenario.size)
     return backwards[::-1]
-
-
-def _near_to(later: Cell) -> Callable[[Cell], tuple[int, int, int]]:
-    return lambda cell: (cell[1], abs(cell[0] - later[0]), cell[0])
 
 
 def _before(target: Cell) -> Cell:

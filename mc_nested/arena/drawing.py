@@ -29,11 +29,8 @@ def kind_of(scenario: Scenario, agent: Cell | None, placed: Collection[Cell], ce
         return AGENT
     if cell in placed:
         return BUILT if cell in scenario.design else WRONG
-    return missing_in(scenario, cell) if cell in scenario.design else FREE
-
-
-def missing_in(scenario: Scenario, cell: Cell) -> str:
-    """Return the sign of a cell of the design that is still to build."""
+    if cell not in scenario.design:
+        return FREE
     number = part_of(scenario, cell)
     return PARTS[number] if scenario.parts and number < len(PARTS) else MISSING
 

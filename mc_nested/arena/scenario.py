@@ -35,12 +35,6 @@ class Part:
         return max(range(len(self.worth)), key=lambda index: self.worth[index])
 
 
-def part_after(laid: int, parts: Sequence[Part]) -> int:
-    """Return the index of the part that is built once so many blocks are laid; the last one when all are."""
-    ends = accumulate(len(part.cells) for part in parts[:-1])
-    return sum(laid >= end for end in ends)
-
-
 def main_return(on_part: Int64s, laid: NDArray[Any], worth: Float64s, sizes: Int64s) -> Float64s:
     """Return r_M of R episodes, (R,): the blocks on the cells of their part, plus the shares of p.
 
@@ -145,7 +139,8 @@ class Scenario:
 
     def part_at(self, blocks_left: int) -> int:
         """Return the index of the part that is built while so many blocks are left; the last one when none is."""
-        return part_after(self.blocks - blocks_left, self.in_order)
+        ends = accumulate(len(part.cells) for part in self.in_order[:-1])
+        return sum(self.blocks - blocks_left >= end for end in ends)
 
     @property
     def blocks(self) -> int:

@@ -113,24 +113,14 @@ def arena(  # noqa: PLR0913 - a Typer verb: a parameter for each option
     opening = _opening("arena", profile, record, server_allowed=server_allowed)
     with calibrating("arena", opening, is_viewed=view) as opened:
         if mark_only:
+            ask, say = opened.ask, typer.echo
             path = mark_arena(
-                profile,
-                opened.context_of,
-                ask=opened.ask,
-                say=typer.echo,
-                size=cells,
-                standing=standing,
-                font=font,
-                yes=yes,
+                profile, opened.context_of, ask=ask, say=say, size=cells, standing=standing, font=font, yes=yes
             )
             lines = [f"arena written to {path}" if path else "nothing was written"]
         else:
-            if undo:
-                found, file = undo_built_arena(profile, opened.context_of)
-            else:
-                found, file = calibrate_built_arena(
-                    profile, opened.context_of, size=cells, standing=standing, font=font, yes=yes
-                )
+            build = partial(calibrate_built_arena, size=cells, standing=standing, font=font, yes=yes)
+            found, file = (undo_built_arena if undo else build)(profile, opened.context_of)
             lines = [*found.lines, *([f"written to {file}"] if file.is_file() else [])]
     _print(lines)
 

@@ -66,7 +66,9 @@ def doctor(
     if fix and repair(found, partial(typer.echo, err=True)):
         found = _examined(profile)
     table = Constrain(table_of(found.checks), WIDTH)
-    Output(as_json=as_json).result(Examined(found.checks), table, summary_of(found.checks))
+    counts = {status: sum(check.status == status for check in found.checks) for status in STYLES}
+    summary = ", ".join(f"{count} {status}" for status, count in counts.items() if count)
+    Output(as_json=as_json).result(Examined(found.checks), table, summary)
     if any(check.status == "fail" for check in found.checks):
         raise typer.Exit(FAILED)
 
@@ -154,15 +156,8 @@ def table_of(checks: Sequence[Check]) -> Table:
     for name, ratio in (("check", None), ("", None), ("found", 5), ("to do", 4)):
         table.add_column(name, ratio=ratio, no_wrap=ratio is None, overflow="fold")
     for check in checks:
-        cells = (check.name, Text(check.status, STYLES[check.status]), Text(check.detail), Text(check.fix))
-        table.add_row(*cells)
+        table.add_row(check.name, Text(check.status, STYLES[check.status]), Text(check.detail), Text(check.fix))
     return table
-
-
-def summary_of(checks: Sequence[Check]) -> str:
-    """Return how many rows have each status."""
-    counts = {status: sum(check.status == status for check in checks) for status in STYLES}
-    return ", ".join(f"{count} {status}" for status, count in counts.items() if count)
 
 
 def _examined(profile: str) -> Examination:

@@ -156,8 +156,7 @@ def _state(seen: Overview) -> str:
 
 def recording_path(named: Path) -> Path:
     """Return the recording of that name, or at that path; raise RecordingError if there is none."""
-    kept = recordings_folder() / named
-    for path in (named, kept):
+    for path in (named, recordings_folder() / named):
         if path.exists():
             return path
     known = ", ".join(path.name for path in kept_recordings()[-3:]) or "none yet"

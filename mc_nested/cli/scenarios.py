@@ -127,9 +127,8 @@ def _facts(scenario: Scenario) -> Group:
         steps = f"{fewest.steps} steps; the scripted builder takes {len(build(scenario))}"
     else:
         steps = f"at most {fewest.steps} steps, the scripted builder's: searched up to {EXACT_UP_TO} blocks"
-    materials = ", ".join(f"{material.name} {material.p:+g}" for material in scenario.materials)
-    if scenario.parts:
-        materials = ", ".join(material.name for material in scenario.materials)
+    with_p = "{0.name}" if scenario.parts else "{0.name} {0.p:+g}"
+    materials = ", ".join(map(with_p.format, scenario.materials))
     lines = [
         f"arena      {scenario.size} x {scenario.size} cells",
         f"blocks     {scenario.blocks}",

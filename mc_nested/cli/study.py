@@ -190,7 +190,9 @@ def command_of(study: Study, instead: Mapping[str, str] | None = None) -> Callab
         verbs = [verb_of_study(name) for name in (study.name, *others)]
         if values["resume"] is not None:
             _check_given(given, BESIDE_RESUME, "--resume goes on with its own config.toml")
-            _resume(verbs, values)
+            folder = StudyFolder.open(values["resume"], verbs)
+            with folder_lock(values["resume"]):
+                _run(declared(folder.config.study), folder, values)
         elif chosen is None:
             _begin(study, values, given)
         else:
@@ -217,13 +219,6 @@ def _check_given(given: Iterable[str], beside: Sequence[str], why: str) -> None:
     """Raise UserError, which says why, if an option was given that isn't one of those."""
     for name in sorted(set(given) - set(beside)):
         raise UserError(f"{why}: leave out --{name.replace('_', '-')}")
-
-
-def _resume(verbs: Sequence[str], values: Mapping[str, Any]) -> None:
-    path: Path = values["resume"]
-    folder = StudyFolder.open(path, verbs)
-    with folder_lock(path):
-        _run(declared(folder.config.study), folder, values)
 
 
 def _begin(study: Study, values: Mapping[str, Any], given: AbstractSet[str]) -> None:

@@ -86,7 +86,8 @@ class TrainingView:
         self._board.show(arena=self._arena(), learning=self._learning())
         if self._expected is None:
             self._board.does(f"trains {self._where}")
-            self._board.show(detail=self._pace())
+            steps = self._trainer.env_steps - self._steps_before
+            self._board.show(detail=f"{steps / max(time.monotonic() - self._began, 1e-9):,.0f} steps a second")
 
     def _arena(self) -> ArenaSeen:
         builders = self._trainer.agent.builders
@@ -101,7 +102,6 @@ class TrainingView:
 
     def _learning(self) -> Learning:
         trainer = self._trainer
-        scores = self._curve.after(trainer.episode_rows)
         last = trainer.episode_rows[-self._trials :]
         most = int(np.where(trainer.runs_finished, trainer.episodes_done, trainer.preset.episodes).sum())
         return Learning(
@@ -112,14 +112,10 @@ class TrainingView:
             best=self._best.after(trainer),
             optimum=self._scenario.optimum,
             at_optimum=int((trainer.policy_scores >= self._scenario.optimum).sum()),
-            scores=scores,
+            scores=self._curve.after(trainer.episode_rows),
             exploring=self._exploring,
             game_minutes_left=self._minutes_left(),
         )
-
-    def _pace(self) -> str:
-        steps = self._trainer.env_steps - self._steps_before
-        return f"{steps / max(time.monotonic() - self._began, 1e-9):,.0f} steps a second"
 
     def _minutes_left(self) -> float | None:
         if self._expected is None:

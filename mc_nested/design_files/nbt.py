@@ -49,17 +49,11 @@ KINDS: dict[type, str] = {
 """The Python type of each tag's value, in words."""
 
 
-def read_nbt(data: bytes, most_reads: int = MOST_READS) -> Compound:
-    """Return the root compound of a file's bytes, compressed or not.
-
-    Raise ScenarioError, without the file's name, if it has none. At most MOST_BYTES are unpacked, and pynbt may read at
-    most ``most_reads`` times. What lies nested too deeply is refused.
-    """
-    return root_of(unpacked(data), most_reads)
-
-
 def root_of(plain: bytes, most_reads: int = MOST_READS) -> Compound:
-    """Return the root compound of unpacked NBT, with the same limits; ScenarioError without pynbt, too."""
+    """Return the root compound of unpacked NBT; pynbt may read at most ``most_reads`` times.
+
+    Raise ScenarioError, without the file's name, if it has none, lies nested too deeply, or there is no pynbt.
+    """
     try:
         import pynbt
     except ImportError:

@@ -37,7 +37,11 @@ def read_picture(data: bytes) -> Volume:
             pixels = np.asarray(_of_8_bits(image).convert("RGBA"))
     except (OSError, SyntaxError, ValueError, EOFError, struct.error) as error:
         raise ScenarioError("the picture is damaged, or ends in the middle: save it again as PNG") from error
-    return _volume(pixels)
+    red, green, blue, alpha = (pixels[..., channel].astype(np.int32) for channel in range(4))
+    free = (alpha < OPAQUE_FROM) | ((red >= WHITE_FROM) & (green >= WHITE_FROM) & (blue >= WHITE_FROM))
+    colours, blocks = np.unique(np.where(free, -1, red << 16 | green << 8 | blue), return_inverse=True)
+    names = [AIR if colour < 0 else f"#{colour:06x}" for colour in colours.tolist()]
+    return Volume(tuple(names), blocks.reshape(1, *free.shape))
 
 
 def _of_8_bits(image: Image.Image) -> Image.Image:
@@ -45,11 +49,3 @@ def _of_8_bits(image: Image.Image) -> Image.Image:
     if not image.mode.startswith("I"):
         return image
     return Image.fromarray((np.asarray(image).astype(np.int32) >> 8).astype(np.uint8))
-
-
-def _volume(pixels: np.ndarray[tuple[int, ...], np.dtype[np.uint8]]) -> Volume:
-    red, green, blue, alpha = (pixels[..., channel].astype(np.int32) for channel in range(4))
-    free = (alpha < OPAQUE_FROM) | ((red >= WHITE_FROM) & (green >= WHITE_FROM) & (blue >= WHITE_FROM))
-    colours, blocks = np.unique(np.where(free, -1, red << 16 | green << 8 | blue), return_inverse=True)
-    names = [AIR if colour < 0 else f"#{colour:06x}" for colour in colours.tolist()]
-    return Volume(tuple(names), blocks.reshape(1, *free.shape))

@@ -86,10 +86,7 @@ def read_mcedit(root: Compound) -> Volume:
     width, height, length = (unsigned_short(root, name) for name in ("Width", "Height", "Length"))
     cells = check_size(width, height, length)
     numbers = _bytes_in(root, "Blocks", cells).astype(np.int32) + _high_bits(root, cells)
-    kinds, blocks = np.unique(
-        numbers << DATA_BITS | _bytes_in(root, "Data", cells) & 0b1111,
-        return_inverse=True,
-    )
+    kinds, blocks = np.unique(numbers << DATA_BITS | _bytes_in(root, "Data", cells) & 0b1111, return_inverse=True)
     names = [name_of(kind >> DATA_BITS, kind & 0b1111) for kind in kinds.tolist()]
     return volume_of(blocks.reshape(-1), names, height, length, width)
 

@@ -104,10 +104,10 @@ class ViewApp(App[None]):
         Binding("ctrl+c", "interrupt", "stop", show=False, priority=True),
         Binding("q", "quit", "close"),
         Binding("ctrl+q", "quit", "close", show=False, priority=True),
-        Binding("left", "earlier", "back"),
-        Binding("right", "later", "on"),
-        Binding("pageup,shift+left", "far_earlier", "far back", show=False),
-        Binding("pagedown,shift+right", "far_later", "far on", show=False),
+        Binding("left", "move(-1)", "back"),
+        Binding("right", "move(1)", "on"),
+        Binding("pageup,shift+left", "jump(-1)", "far back", show=False),
+        Binding("pagedown,shift+right", "jump(1)", "far on", show=False),
         Binding("home", "first", "first", show=False),
         Binding("end", "now", "now"),
         Binding("escape", "now", "now", show=False),
@@ -199,21 +199,13 @@ class ViewApp(App[None]):
         answer = YesOrNo(number=self._status.question_number, is_yes=is_yes)
         self._ask(lambda folder: give_answer(folder, answer))
 
-    def action_earlier(self) -> None:
-        """Show the moment before."""
-        self._scrub(lambda past: past.moved(-1))
+    def action_move(self, places: int) -> None:
+        """Show the moment so many places after, or before for a negative number."""
+        self._scrub(lambda past: past.moved(places))
 
-    def action_later(self) -> None:
-        """Show the moment after."""
-        self._scrub(lambda past: past.moved(1))
-
-    def action_far_earlier(self) -> None:
-        """Go a tenth of the run back."""
-        self._scrub(lambda past: past.jumped(-1))
-
-    def action_far_later(self) -> None:
-        """Go a tenth of the run on."""
-        self._scrub(lambda past: past.jumped(1))
+    def action_jump(self, tenths: int) -> None:
+        """Go so many tenths of the run on, or back for a negative number."""
+        self._scrub(lambda past: past.jumped(tenths))
 
     def action_first(self) -> None:
         """Show the first moment."""
@@ -261,9 +253,8 @@ class ViewApp(App[None]):
         if (layout := self._layout_for(shown)) != self._layout:
             self._layout = layout
             self._lay_out(layout)
-        if (
-            offered := (self._life, self._status.can_pause, self._status.question, self._past is None)
-        ) != self._offered:
+        offered = (self._life, self._status.can_pause, self._status.question, self._past is None)
+        if offered != self._offered:
             self._offered = offered
             self.refresh_bindings()
         for panel in self.query(Panel):

@@ -1,7 +1,7 @@
 """The arena from above in a terminal, the far edge on top: what stands, what is believed, and where the agents are."""
 
 from collections.abc import Mapping
-from itertools import groupby
+from itertools import groupby, product
 from operator import itemgetter
 
 from rich.text import Text
@@ -71,28 +71,20 @@ def _signs(arena: ArenaSeen, trials: int) -> dict[Cell, tuple[str, str]]:
     """Return the sign of each cell, and its style."""
     design = set(arena.design)
     stands, agents = _by_cell(arena.stands), _by_cell(arena.agents)
-    across = range(arena.size)
     signs = {}
-    for x in across:
-        for y in across:
-            cell = x, y
-            if cell in agents:
-                signs[cell] = _agents_sign(agents[cell], trials), AGENT_STYLE
-            elif cell in stands:
-                signs[cell] = _block_sign(stands[cell], trials, cell in design)
-            else:
-                signs[cell] = _free_sign(arena, cell, cell in design)
+    for cell in product(range(arena.size), range(arena.size)):
+        if cell in agents:
+            many = str(agents[cell]) if agents[cell] < MANY else MANY_SIGN
+            signs[cell] = AGENT if trials == 1 else many, AGENT_STYLE
+        elif cell in stands:
+            signs[cell] = _block_sign(stands[cell], trials, cell in design)
+        else:
+            signs[cell] = _free_sign(arena, cell, cell in design)
     return signs
 
 
 def _by_cell(standing: tuple[Standing, ...]) -> dict[Cell, int]:
     return {(x, y): count for x, y, count in standing}
-
-
-def _agents_sign(count: int, trials: int) -> str:
-    if trials == 1:
-        return AGENT
-    return str(count) if count < MANY else MANY_SIGN
 
 
 def _block_sign(count: int, trials: int, is_right: bool) -> tuple[str, str]:
@@ -105,7 +97,8 @@ def _block_sign(count: int, trials: int, is_right: bool) -> tuple[str, str]:
 
 def _free_sign(arena: ArenaSeen, cell: Cell, is_design: bool) -> tuple[str, str]:
     if not arena.beliefs:
-        kind = _missing_sign(arena, cell) if is_design else FREE
+        numbers = (number for number, cells in zip(PARTS, arena.parts, strict=False) if cell in cells)
+        kind = next(numbers, MISSING) if is_design else FREE
         return kind, terminal.style_of(kind)
     sign = arena.beliefs[cell[1]][cell[0]]
     if sign in BELIEVED:
@@ -113,16 +106,11 @@ def _free_sign(arena: ArenaSeen, cell: Cell, is_design: bool) -> tuple[str, str]
     return (NOT_KNOWN, BELIEVED[NOT_KNOWN][0]) if is_design else (FREE, terminal.STYLES[FREE])
 
 
-def _missing_sign(arena: ArenaSeen, cell: Cell) -> str:
-    signs = (sign for sign, cells in zip(PARTS, arena.parts, strict=False) if cell in cells)
-    return next(signs, MISSING)
-
-
 def _legend(arena: ArenaSeen, trials: int, width: int) -> list[Text]:
     """Return what the signs mean, in as many lines as it takes."""
     if trials > 1:
-        entries = [("1-9", AGENT_STYLE, f"agents, {MANY_SIGN} ten or more")]
-        entries += [
+        entries = [
+            ("1-9", AGENT_STYLE, f"agents, {MANY_SIGN} ten or more"),
             (SHADES, "green", "built, in few to all trials"),
             (f"{SHADES[0]}{WRONG}", "yellow", "off the design"),
         ]
@@ -132,10 +120,8 @@ def _legend(arena: ArenaSeen, trials: int, width: int) -> list[Text]:
     if arena.beliefs:
         entries += [(sign, style, name) for sign, (style, name) in BELIEVED.items()]
     else:
-        to_build = {
-            sign: name for sign, name in terminal.named_signs(len(arena.parts)).items() if sign in MISSING + PARTS
-        }
-        entries += [(sign, terminal.style_of(sign), name) for sign, name in to_build.items()]
+        named = terminal.named_signs(len(arena.parts)).items()
+        entries += [(sign, terminal.style_of(sign), name) for sign, name in named if sign in MISSING + PARTS]
     lines: list[Text] = []
     for sign, style, name in entries:
         entry = Text.assemble((sign, style), f" {name}")

@@ -30,7 +30,8 @@ class GlfwWindow:
 
     def __init__(self, handle: Any) -> None:
         self.handle = handle
-        self._is_stale = True
+        self.is_stale = True
+        """Whether the desktop has lost what was shown."""
         glfw.set_window_refresh_callback(handle, lambda _: self._lose_picture())
 
     @property
@@ -86,18 +87,13 @@ class GlfwWindow:
             else:
                 glfw.poll_events()
 
-    @property
-    def is_stale(self) -> bool:
-        """Whether the desktop has lost what was shown."""
-        return self._is_stale
-
     def show(self) -> None:
         """Show what was drawn."""
         glfw.swap_buffers(self.handle)
-        self._is_stale = False
+        self.is_stale = False
 
     def _lose_picture(self) -> None:
-        self._is_stale = True
+        self.is_stale = True
 
     # The desktop's clipboard.
 

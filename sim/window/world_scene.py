@@ -75,12 +75,8 @@ _LOWER = 0.002
 
 
 def _with_constants(shader: str) -> str:
-    return shader.replace("#version 330", "#version 330" + "".join(_defined(each) for each in _CONSTANTS.items()))
-
-
-def _defined(constant: tuple[str, float]) -> str:
-    name, value = constant
-    return f"\n#define {name} {float(value)}"
+    defined = "".join(f"\n#define {name} {float(value)}" for name, value in _CONSTANTS.items())
+    return shader.replace("#version 330", "#version 330" + defined)
 
 
 class WorldScene:

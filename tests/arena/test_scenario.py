@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from mc_nested.arena.action import Cell
-from mc_nested.arena.scenario import Material, Part, Scenario, main_return, part_after
+from mc_nested.arena.scenario import Material, Part, Scenario, main_return
 from mc_nested.errors import ScenarioError
 from tests.arena.made_parts import FAR, NEAR, STRIPES
 
@@ -58,7 +58,7 @@ WORTH = (1.0, 2.0)
 
 
 def test_the_current_part_follows_from_the_number_of_blocks_laid() -> None:
-    assert [part_after(laid, STRIPES.parts) for laid in range(6)] == [0, 0, 1, 1, 1, 1]
+    assert [STRIPES.part_at(STRIPES.blocks - laid) for laid in range(6)] == [0, 0, 1, 1, 1, 1]
     assert [STRIPES.part_at(left) for left in (5, 4, 3, 1, 0)] == [0, 0, 1, 1, 1]
 
 

@@ -8,10 +8,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from mc_nested.design_files.litematic import CHUNK, is_litematic, read_litematic, unpacked_numbers
-from mc_nested.design_files.nbt import read_nbt
 from mc_nested.design_files.volume import Volume
 from mc_nested.errors import ScenarioError
-from tests.design_files.written import HUT, Longs, litematic, nbt_file, packed, region
+from tests.design_files.written import HUT, Longs, litematic, nbt_file, packed, read_nbt, region
 
 
 def names_in(volume: Volume) -> list[list[list[str]]]:

@@ -15,11 +15,11 @@ import pynbt
 import pytest
 
 from mc_nested.design_files.load import read_volume
-from mc_nested.design_files.nbt import MOST_BYTES, SMALL_BYTES, check_stated_size, checked, read_nbt, unpacked, value_of
+from mc_nested.design_files.nbt import MOST_BYTES, SMALL_BYTES, check_stated_size, checked, unpacked, value_of
 from mc_nested.design_files.schematic import read_sponge
 from mc_nested.design_files.volume import MOST_CELLS
 from mc_nested.errors import ScenarioError
-from tests.design_files.written import Longs, Short, named, nbt_file, states
+from tests.design_files.written import Longs, Short, named, nbt_file, read_nbt, states
 
 ROOT = b"\x0a\0\0"
 """How the root begins: a compound without a name."""

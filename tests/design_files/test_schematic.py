@@ -10,10 +10,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mc_nested.design_files.nbt import read_nbt
 from mc_nested.design_files.schematic import decoded, is_mcedit, is_sponge, name_of, read_mcedit, read_sponge
 from mc_nested.errors import ScenarioError
-from tests.design_files.written import HUT, Short, mcedit, nbt_file, sponge, varint
+from tests.design_files.written import HUT, Short, mcedit, nbt_file, read_nbt, sponge, varint
 
 
 @given(st.lists(st.integers(0, 2**28 - 1), min_size=1))

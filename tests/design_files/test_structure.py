@@ -4,10 +4,9 @@ from typing import Any
 
 import pytest
 
-from mc_nested.design_files.nbt import read_nbt
 from mc_nested.design_files.structure import is_structure, read_structure
 from mc_nested.errors import ScenarioError
-from tests.design_files.written import HUT, nbt_file, states, structure
+from tests.design_files.written import HUT, nbt_file, read_nbt, states, structure
 
 
 def saved(**changes: Any) -> bytes:

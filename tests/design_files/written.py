@@ -14,6 +14,8 @@ from typing import Any
 import numpy as np
 from PIL import Image
 
+from mc_nested.design_files.nbt import MOST_READS, Compound, root_of, unpacked
+
 Drawing = Sequence[Sequence[str]]
 
 PALETTE = {
@@ -205,3 +207,8 @@ WRITERS: dict[str, Callable[[Drawing], bytes]] = {
     "structures.nbt": lambda drawing: structure(drawing, palettes=2),
 }
 """How each kind of file is written, by a name for it."""
+
+
+def read_nbt(data: bytes, most_reads: int = MOST_READS) -> Compound:
+    """Return the root compound of a file's bytes, compressed or not."""
+    return root_of(unpacked(data), most_reads)

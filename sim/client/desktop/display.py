@@ -78,7 +78,7 @@ class VirtualDisplay:
             seen = min(seen, self._frozen_at)
         # A desktop never shows an older frame than before.
         self._shown_at = max(self._shown_at, self._frames.at_or_before(seen))
-        return self._view_at(self._shown_at)
+        return next((view for since, view in reversed(self._views) if since <= self._shown_at), self._views[0][1])
 
     @property
     def shown_at(self) -> float:
@@ -103,6 +103,3 @@ class VirtualDisplay:
     def blacken(self, seconds: float) -> None:
         """Show a black picture for some seconds."""
         self._black_until = self._clock.now() + seconds
-
-    def _view_at(self, time_s: float) -> View:
-        return next((view for since, view in reversed(self._views) if since <= time_s), self._views[0][1])

@@ -44,7 +44,7 @@ def faces_of(built: Mapping[Block, str], floor: int) -> Faces:
         (block, number, name)
         for block, name in built.items()
         for number, ((_, _, axis), side) in enumerate(FACES)
-        if _is_open(_beside(block, axis, side), built, floor)
+        if (near := _beside(block, axis, side)) not in built and near[1] >= floor
     ]
     return _faces(
         np.array([block for block, _, _ in found], np.int64).reshape(-1, 3),
@@ -116,7 +116,3 @@ def _beside(block: Block, axis: int, side: int) -> Block:
     moved = list(block)
     moved[axis] += 1 if side else -1
     return moved[0], moved[1], moved[2]
-
-
-def _is_open(block: Block, built: Mapping[Block, str], floor: int) -> bool:
-    return block not in built and block[1] >= floor

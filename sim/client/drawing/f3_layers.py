@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 from mc_nested.live.devices import Frame
 from mc_nested.live.vision.font import Font
-from sim.client.drawing.layers import Blend, Group, Layer, draw_all
+from sim.client.drawing.layers import Group, Layer, draw_all
 from sim.client.drawing.letters import Letters
 from sim.client.game.entry_boxes import PITCH, PlacedBox, box_columns
 from sim.client.game.f3_screen import F3Screen, Part, TextLine
@@ -32,7 +32,7 @@ class F3Boxes:
     """The boxes as layers in a window of a size in GUI pixels; one that didn't change is the same layer again."""
 
     def __init__(self, letters: Letters, gui: tuple[int, int]) -> None:
-        self._letters = letters
+        self._letters, self._fill = letters, letters.fill
         self._columns, self._rows = gui
         self._box = lru_cache(_KEPT_BOXES)(self._drawn)
 
@@ -75,10 +75,6 @@ class F3Boxes:
             at = self._columns - 1 if is_right else 0
             bars.append(self._fill((at, top - 1, at + 1, bottom), kind.bar))
         return Group((*grounds, *texts, *bars))
-
-    def _fill(self, gui: tuple[int, int, int, int], colour: Colour, alpha: int = 255) -> Blend:
-        scale = self._letters.scale
-        return Blend((gui[0] * scale, gui[1] * scale, gui[2] * scale, gui[3] * scale), colour, alpha)
 
 
 class _Style(NamedTuple):
@@ -169,9 +165,5 @@ class F3Layers:
             value_left = left + width - self._letters.width(value)
             texts.append(self._letters.text(value, value_left, top, _VALUES.get(value, style.text)))
         if underlined:
-            texts.append(self._blend((left - 1, top + 8, left + width, top + 9), style.text, 255))
-        return self._blend(box, style.box, style.alpha), texts
-
-    def _blend(self, gui: tuple[int, int, int, int], colour: Colour, alpha: int) -> Blend:
-        scale = self._letters.scale
-        return Blend((gui[0] * scale, gui[1] * scale, gui[2] * scale, gui[3] * scale), colour, alpha)
+            texts.append(self._letters.fill((left - 1, top + 8, left + width, top + 9), style.text))
+        return self._letters.fill(box, style.box, style.alpha), texts

@@ -7,7 +7,7 @@ are boxes at the upper right (FACTS: The F3 debug screen).
 from collections.abc import Mapping
 from functools import lru_cache
 
-from sim.client.drawing.layers import Blend, Gradient, Layer, Rect
+from sim.client.drawing.layers import Gradient, Layer, Rect
 from sim.client.drawing.letters import Letters
 from sim.client.drawing.world_shapes import block_colour
 from sim.client.game.chat import ChatLine, TypedLine
@@ -33,7 +33,7 @@ class HudLayers:
     """The layers in a window of a size in GUI pixels; what didn't change is the same layer again."""
 
     def __init__(self, letters: Letters, gui: tuple[int, int], edition: Edition) -> None:
-        self._letters = letters
+        self._letters, self._fill = letters, letters.fill
         self._width, self._height = gui
         self._chat_bottom = self._height - (40 if edition.since(1, 13) else 48)
         self._crosshair = lru_cache(2)(self._drawn_crosshair)
@@ -57,10 +57,6 @@ class HudLayers:
                 layers += self._line(line._replace(text=text), row)
                 row += 1
         return layers + (self._input(typed) if typed is not None else [])
-
-    def _fill(self, gui: Rect, colour: Colour, alpha: int = 255) -> Blend:
-        scale = self._letters.scale
-        return Blend((gui[0] * scale, gui[1] * scale, gui[2] * scale, gui[3] * scale), colour, alpha)
 
     def _drawn_crosshair(self, has_axes: bool) -> list[Layer]:
         x, y = self._width // 2, self._height // 2
@@ -139,7 +135,7 @@ class NoticeLayers:
     """The layers of notices in a window so many GUI pixels wide."""
 
     def __init__(self, letters: Letters, width: int) -> None:
-        self._letters, self._left = letters, width - WIDTH
+        self._letters, self._fill, self._left = letters, letters.fill, width - WIDTH
 
     def of(self, notices: tuple[str, ...]) -> list[Layer]:
         """Return the layers of these texts from the top down; an empty one leaves its place free."""
@@ -156,10 +152,6 @@ class NoticeLayers:
                 ]
         return layers
 
-    def _fill(self, gui: Rect, colour: Colour) -> Blend:
-        scale = self._letters.scale
-        return Blend((gui[0] * scale, gui[1] * scale, gui[2] * scale, gui[3] * scale), colour, 255)
-
 
 _BLACK: Colour = (0, 0, 0)
 _DIM = ((16, 16, 16), 192), ((16, 16, 16), 208)
@@ -174,7 +166,8 @@ class MenuLayers:
     """The layers of menus in a window of a size in GUI pixels, in the language of ``words``."""
 
     def __init__(self, letters: Letters, gui: tuple[int, int], edition: Edition, words: Mapping[str, str]) -> None:
-        self._letters, self._gui, self._edition, self._words = letters, gui, edition, words
+        self._letters, self._fill = letters, letters.fill
+        self._gui, self._edition, self._words = gui, edition, words
         self._menu = lru_cache(32)(self._drawn_menu)
         self._inventory = lru_cache(2)(self._drawn_inventory)
 
@@ -235,10 +228,6 @@ class MenuLayers:
         words = self._words.get(text.text, text.text)
         wide = self._letters.width(words) * text.size if text.is_centred else 0
         return self._letters.text(words, text.left - wide // 2, text.top, text.colour, shadow=True, size=text.size)
-
-    def _fill(self, gui: Rect, colour: Colour, alpha: int = 255) -> Blend:
-        scale = self._letters.scale
-        return Blend((gui[0] * scale, gui[1] * scale, gui[2] * scale, gui[3] * scale), colour, alpha)
 
     def _gradient(self, upper: tuple[Colour, int], lower: tuple[Colour, int]) -> Gradient:
         scale = self._letters.scale

@@ -168,7 +168,9 @@ class LayeredPicture:
         kept = []
         for stale in self._stale:
             if inside := intersection(stale, part):
-                self._redraw(inside)
+                left, top, right, bottom = inside
+                self._frame[top:bottom, left:right] = self._background[top:bottom, left:right]
+                draw_all(self._frame, self._layers, inside)
                 kept += _around(stale, inside)
             else:
                 kept.append(stale)
@@ -182,11 +184,6 @@ class LayeredPicture:
             return
         self._stale = [stale for stale in self._stale if not _contains(inside, stale)]
         self._stale.append(inside)
-
-    def _redraw(self, part: Rect) -> None:
-        left, top, right, bottom = part
-        self._frame[top:bottom, left:right] = self._background[top:bottom, left:right]
-        draw_all(self._frame, self._layers, part)
 
 
 def _around(rect: Rect, inside: Rect) -> list[Rect]:

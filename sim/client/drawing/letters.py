@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mc_nested.live.vision.font import SPACE, Font
-from sim.client.drawing.layers import Ink
+from sim.client.drawing.layers import Blend, Ink, Rect
 from sim.client.game.widgets import Colour
 
 _KEPT = 256
@@ -58,6 +58,11 @@ class Letters:
         if is_slanted:
             x, right = x - step, right + step
         return Ink((x, y, right, bottom), partial(self._dots, text, colour, shadow, size, is_slanted))
+
+    def fill(self, gui: Rect, colour: Colour, alpha: int = 255) -> Blend:
+        """Return a rectangle in GUI pixels, filled; ``alpha`` is out of 255."""
+        left, top, right, bottom = gui
+        return Blend((left * self.scale, top * self.scale, right * self.scale, bottom * self.scale), colour, alpha)
 
     def _found(self, text: str) -> bytes:
         glyphs, unknown = self._glyphs, self._unknown

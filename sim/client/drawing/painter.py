@@ -10,7 +10,6 @@ from functools import lru_cache
 import numpy as np
 
 from mc_nested.live.devices import Frame, Region
-from mc_nested.live.model.reading import Block
 from mc_nested.live.vision.font import Font
 from mc_nested.live.vision.layout import Scales
 from sim.client.drawing.f3_layers import F3Layers
@@ -51,16 +50,13 @@ class ViewLayers:
 
     def of(self, view: View) -> list[Layer]:
         """Return the layers of a view; one that didn't change is the same layer again."""
-        f3 = self._f3.of(view.f3) if view.f3 and view.menu.name in IN_WORLD else []
-        hud, chat = self._hud_and_chat(view)
         over = [*self._menu.of(view), *self._notices(view.notices)]
-        return [*hud, *chat, *over, *f3] if self._is_f3_last else [*hud, *f3, *chat, *over]
-
-    def _hud_and_chat(self, view: View) -> tuple[list[Layer], list[Layer]]:
         if view.menu.name not in IN_WORLD:
-            return [], []
-        has_chat = view.chat or view.typed is not None
-        return self._hud.of(view), self._hud.chat(view.chat, view.typed) if has_chat else []
+            return over
+        f3 = self._f3.of(view.f3) if view.f3 else []
+        hud = self._hud.of(view)
+        chat = self._hud.chat(view.chat, view.typed) if view.chat or view.typed is not None else []
+        return [*hud, *chat, *over, *f3] if self._is_f3_last else [*hud, *f3, *chat, *over]
 
 
 WORLDS = ("flat", "noise", "grey noise", "blocks", "gradient", "specks")
@@ -151,13 +147,9 @@ class Painter:
     def _background(self, view: View) -> Frame:
         if view.menu.name not in IN_WORLD:
             return self._dirt
-        return self._scene(*_shift(view.scene))
+        x, y, z = view.scene
+        return self._scene((7 * x + 3 * y) % _SHIFTS, (5 * z + y) % _SHIFTS)
 
     def _moved(self, right: int, down: int) -> Frame:
         width, height = self._size
         return self._world[down : down + height, right : right + width]
-
-
-def _shift(block: Block) -> tuple[int, int]:
-    x, y, z = block
-    return (7 * x + 3 * y) % _SHIFTS, (5 * z + y) % _SHIFTS

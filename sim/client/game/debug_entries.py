@@ -128,7 +128,11 @@ def read_profile(text: str, edition: Edition) -> DebugEntries:
     UserError if the game can't read it, and would replace it.
     """
     try:
-        return _parsed(json.loads(text), edition)
+        profile = json.loads(text)
+        custom, written = profile.get("custom", {}), profile.get("DataVersion")
+        written = written if isinstance(written, int | float) else ASSUMED_DATA
+        entries = {_name(name, written, edition): _status(each, written, edition) for name, each in custom.items()}
+        return _PROFILES[profile["profile"]] if "profile" in profile else entries
     except (ValueError, TypeError, KeyError, AttributeError, RecursionError) as error:
         problem = "it is no JSON" if isinstance(error, json.JSONDecodeError) else "an entry or a value is unknown there"
         raise UserError(
@@ -145,13 +149,6 @@ def names_block(entries: DebugEntries, edition: Edition) -> bool:
 def _has(edition: Edition, entry: str) -> bool:
     since, until = _ENTRIES.get(entry, ((), ()))
     return bool(since) and edition.since(*since) and not (until and edition.since(*until))
-
-
-def _parsed(profile: Any, edition: Edition) -> DebugEntries:
-    custom, written = profile.get("custom", {}), profile.get("DataVersion")
-    written = written if isinstance(written, int | float) else ASSUMED_DATA
-    entries = {_name(entry, written, edition): _status(status, written, edition) for entry, status in custom.items()}
-    return _PROFILES[profile["profile"]] if "profile" in profile else entries
 
 
 def _name(entry: str, written: float, edition: Edition) -> str:

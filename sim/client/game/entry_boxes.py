@@ -62,17 +62,11 @@ _GENERATION = Kind("Chunk Generation", (153, 255, 170))
 _SPAWNS = Kind("Entity Spawn Counts", (255, 68, 68))
 
 
-def first_lines(screen: F3Screen) -> tuple[str, ...]:
-    """Return the lines with priority: the first stands left, the second right."""
-    lines = {"fps": f"{screen.fps} fps T: {screen.fps} (fifo) @60Hz", "game_version": screen.title}
-    return tuple(lines[entry] for entry in screen.shown if entry in lines)
-
-
 def boxes(screen: F3Screen) -> list[EntryBox]:
     """Return all other boxes that have something in them, in the order in which they are given a column."""
     said: dict[str, EntryBox] = {}
     for entry in screen.shown:
-        for box in _ENTRIES.get(entry, _nothing)(screen):
+        for box in _ENTRIES[entry](screen) if entry in _ENTRIES else ():
             before = said.get(box.kind.title, EntryBox(box.kind))
             said[box.kind.title] = EntryBox(box.kind, before.facts + box.facts, before.lines + box.lines)
     if MISC.title in said:
@@ -80,10 +74,6 @@ def boxes(screen: F3Screen) -> list[EntryBox]:
     if screen.shown and screen.has_f3:
         said[HELP.title] = _HELP
     return list(said.values())
-
-
-def _nothing(_: F3Screen) -> tuple[EntryBox, ...]:
-    return ()
 
 
 def _fact(name: str, *texts: str) -> Fact:
@@ -249,7 +239,9 @@ class _Column:
 def box_columns(screen: F3Screen, rows: int) -> tuple[list[PlacedBox], list[PlacedBox]]:
     """Return the boxes of the left and of the right column, from the top, in a window ``rows`` GUI pixels high."""
     left, right = columns = _Column(rows), _Column(rows)
-    first = first_lines(screen)
+    # Of the lines with priority the first stands left, the second right.
+    priority = {"fps": f"{screen.fps} fps T: {screen.fps} (fifo) @60Hz", "game_version": screen.title}
+    first = tuple(priority[entry] for entry in screen.shown if entry in priority)
     for column, lines in zip(columns, (first[::2], first[1::2]), strict=True):
         if lines:
             column.add(EntryBox(FIRST, lines=lines))

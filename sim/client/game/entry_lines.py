@@ -28,9 +28,8 @@ def entry_columns(screen: F3Screen) -> tuple[list[Part], list[Part]]:
     """Return the left and the right column, from the top, in parts."""
     said: dict[str, list[Part]] = {_PRIORITY: [], _SINGLE: []}
     for entry in screen.shown:
-        write = _ENTRIES.get(entry)
-        if write is not None:
-            group, parts = write(screen)
+        if entry in _ENTRIES:
+            group, parts = _ENTRIES[entry](screen)
             # A group counts even while it has no lines.
             said.setdefault(group, []).extend(parts)
     first = said.pop(_PRIORITY)
@@ -58,8 +57,7 @@ def _plain(*texts: str) -> Part:
 
 
 def _single(*texts: str) -> Callable[[F3Screen], _Said]:
-    said = _Said(_SINGLE, (_plain(*texts),))
-    return lambda _: said
+    return _group(_SINGLE, *texts)
 
 
 def _group(name: str, *texts: str) -> Callable[[F3Screen], _Said]:

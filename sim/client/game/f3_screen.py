@@ -109,12 +109,6 @@ class F3Screen:
         """Whether the crosshair is one of three axes."""
         return self.layout not in BY_ENTRIES or "3d_crosshair" in self.shown
 
-    @property
-    def names_target(self) -> bool:
-        """Whether it says which block is looked at, if any is."""
-        is_chosen = not {"looking_at_block", "looking_at_block_state"}.isdisjoint(self.shown)
-        return is_chosen if self.layout in BY_ENTRIES else not self.reduced
-
 
 _FACINGS = (
     "south (Towards positive Z)",

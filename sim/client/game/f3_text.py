@@ -4,7 +4,6 @@ From 1.21.9 on it is made from entries (entry_lines.py), and 26.4 puts it into b
 """
 
 from functools import lru_cache
-from itertools import chain
 from typing import get_args
 
 from sim.client.game.edition import Layout
@@ -16,16 +15,6 @@ LAYOUTS: tuple[Layout, ...] = get_args(Layout)
 """All of them."""
 
 _EMPTY: Part = (TextLine(),)
-
-
-def left_lines(screen: F3Screen) -> list[TextLine]:
-    """Return the left column, from the top."""
-    return list(chain.from_iterable(both_columns(screen)[0]))
-
-
-def right_lines(screen: F3Screen) -> list[TextLine]:
-    """Return the right column, from the top."""
-    return list(chain.from_iterable(both_columns(screen)[1]))
 
 
 def both_columns(screen: F3Screen) -> tuple[list[Part], list[Part]]:
@@ -108,19 +97,12 @@ def _surroundings(layout: Layout) -> Part:
 
 
 def _looking(screen: F3Screen) -> list[Part]:
-    parts = _looking_at_block(screen)
+    parts, block = [], {"1.8-1.12": "Looking at", "1.13-1.15": "Looking at block"}.get(screen.layout)
+    if block and screen.target is not None and screen.target.pos is not None:
+        parts.append(_plain("{}: {} {} {}".format(block, *screen.target.pos)))
     if screen.fluid is not None and screen.layout == "1.13-1.15":
         parts.append(_plain("Looking at liquid: {} {} {}".format(*screen.fluid)))
     return parts
-
-
-def _looking_at_block(screen: F3Screen) -> list[Part]:
-    if screen.target is None or screen.target.pos is None:
-        return []
-    x, y, z = screen.target.pos
-    if screen.layout == "1.8-1.12":
-        return [_plain(f"Looking at: {x} {y} {z}")]
-    return [_plain(f"Looking at block: {x} {y} {z}")] if screen.layout == "1.13-1.15" else []
 
 
 def _target_group(screen: F3Screen) -> Part:

@@ -210,7 +210,9 @@ class VirtualGame:
             self._finish_loading()
         if not self.is_in_world or self.screen in PAUSING:
             return
-        self._take_back_ghosts()
+        for due, block in [ghost for ghost in self._ghosts if ghost[0] <= self.ticks]:
+            self.realm.world.put(block, AIR)
+            self._ghosts.remove((due, block))
         while self._sent:
             for answer in chat_line.run(self._sent.popleft(), self.realm):
                 self.chat.say(answer.text, self.ticks, is_error=answer.is_error)
@@ -378,11 +380,6 @@ class VirtualGame:
             self._ghosts_to_come -= 1
             self._ghosts.append((self.ticks + 2, target.before))
 
-    def _take_back_ghosts(self) -> None:
-        for due, block in [ghost for ghost in self._ghosts if ghost[0] <= self.ticks]:
-            self.realm.world.put(block, AIR)
-            self._ghosts.remove((due, block))
-
     def _move(self) -> None:
         keys, player, world = self.keys, self.realm.player, self.realm.world
         player.is_sneaking = keys.is_held("sneak")
@@ -431,7 +428,7 @@ class VirtualGame:
         is_reduced = self.is_info_reduced
         entries: tuple[str, ...] | None = None
         if self.edition.layout in BY_ENTRIES:
-            entries = self._shown_entries(has_f3=self.has_f3, is_reduced=is_reduced)
+            entries = shown_entries(self.debug_entries, self.edition, has_f3=self.has_f3, is_reduced=is_reduced)
         if not (self.has_f3 if entries is None else entries):
             self._shown_f3, self._stood = ((), None), ((), ())
             return None
@@ -441,9 +438,6 @@ class VirtualGame:
         if self._shown_f3[0] != now:
             self._shown_f3 = now, self._new_f3(hit, fps, size, scale, entries, is_reduced=is_reduced)
         return self._shown_f3[1]
-
-    def _shown_entries(self, *, has_f3: bool, is_reduced: bool) -> tuple[str, ...]:
-        return shown_entries(self.debug_entries, self.edition, has_f3=has_f3, is_reduced=is_reduced)
 
     def _new_f3(
         self,

@@ -22,7 +22,7 @@ from mc_nested.live.vision.debug_boxes import (
 from sim.client.drawing.f3_layers import paint
 from sim.client.drawing.painter import WORLDS, random_world
 from sim.client.game.f3_screen import F3Screen
-from sim.client.game.f3_text import left_lines, right_lines
+from tests.sim.client.f3_lines import left_lines, right_lines
 from tests.sim.client.playing import FONT
 
 SCREEN = F3Screen("1.19.3-1.21.8", 1, (0.5, 64.0, 0.5), 0.0, 65.0)

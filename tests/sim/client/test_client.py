@@ -10,12 +10,12 @@ from hypothesis import strategies as st
 from mc_nested.live.devices import Clipboard, Clock, Display, Keyboard, Pointer, Region
 from mc_nested.live.model.reading import Reading
 from sim.client.client import VirtualClient
-from sim.client.game.f3_text import left_lines, right_lines
 from sim.client.game.options import GameOptions
 from sim.client.game.physics import displacement
 from sim.client.game.realm import Stack
 from sim.client.game.screens import MenuState, menu
 from sim.client.settings import gui_scale
+from tests.sim.client.f3_lines import left_lines, right_lines
 from tests.sim.client.playing import TAP_S, arena_of, click, command, read, tap
 
 

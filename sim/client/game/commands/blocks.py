@@ -1,6 +1,7 @@
 """Commands that change, compare and copy blocks: /fill, /setblock, /clone and others (FACTS: Commands)."""
 
 import itertools
+import math
 from collections.abc import Callable, Iterator
 
 from mc_nested.live.model.reading import Block
@@ -8,18 +9,18 @@ from sim.client.game.commands.words import CommandRefusedError, block_name, bloc
 from sim.client.game.realm import Realm
 from sim.client.game.world import block_of
 
-FILL_LIMIT = 32768
+MOST_BLOCKS = 32768
+CHUNK = 16
+
+Run = Callable[[Realm, list[str]], str]
+"""Carries out the words of a command."""
 
 
 def fill(realm: Realm, words: list[str]) -> str:
     """Do ``/fill x1 y1 z1 x2 y2 z2 block [keep]``; 1.12 has a number after the block. ``keep`` fills only air."""
     low, high = block_position(realm, words[:3]), block_position(realm, words[3:6])
     name = block_name(realm, words[6])
-    count = 1
-    for one, other in zip(low, high, strict=True):
-        count *= abs(one - other) + 1
-    if count > FILL_LIMIT:
-        raise CommandRefusedError(f"Too many blocks in the specified area (maximum {FILL_LIMIT}, specified {count})")
+    _check_count(low, high)
     edition = realm.edition
     modes = words[7:] if edition.since(1, 13) else words[8:]
     if modes not in ([], ["keep"]):
@@ -41,13 +42,6 @@ def setblock(realm: Realm, words: list[str]) -> str:
     if not realm.world.put(block, block_name(realm, words[3])):
         raise CommandRefusedError("Could not set the block" if new else "The block couldn't be placed")
     return f"Changed the block at {x}, {y}, {z}" if new else "Block placed"
-
-
-MOST_BLOCKS = 32768
-CHUNK = 16
-
-Run = Callable[[Realm, list[str]], str]
-"""Carries out the words of a command."""
 
 
 def clone(realm: Realm, words: list[str]) -> str:
@@ -110,14 +104,16 @@ def _regions(realm: Realm, words: list[str]) -> tuple[Block, Block, Block]:
     one, two, other = (block_position(realm, words[first : first + 3]) for first in (0, 3, 6))
     low = (min(one[0], two[0]), min(one[1], two[1]), min(one[2], two[2]))
     high = (max(one[0], two[0]), max(one[1], two[1]), max(one[2], two[2]))
-    count = 1
-    for axis in range(3):
-        count *= high[axis] - low[axis] + 1
-    if count > MOST_BLOCKS:
-        raise CommandRefusedError(f"Too many blocks in the specified area (maximum {MOST_BLOCKS}, specified {count})")
+    _check_count(low, high)
     for corner in (low, high, other, tuple(other[axis] + high[axis] - low[axis] for axis in range(3))):
         _check_loaded(realm, (corner[0], corner[1], corner[2]))
     return low, high, other
+
+
+def _check_count(one: Block, other: Block) -> None:
+    count = math.prod(abs(here - there) + 1 for here, there in zip(one, other, strict=True))
+    if count > MOST_BLOCKS:
+        raise CommandRefusedError(f"Too many blocks in the specified area (maximum {MOST_BLOCKS}, specified {count})")
 
 
 def _check_loaded(realm: Realm, block: Block) -> None:

@@ -35,7 +35,9 @@ def run(line: str, realm: Realm) -> list[Answer]:
     except CommandRefusedError as refusal:
         return [Answer(str(refusal), is_error=True)]
     except (ValueError, IndexError):
-        return _wrong(line, realm)
+        if not realm.edition.since(1, 13):
+            return [Answer(f"Usage: /{line[1:].split()[0]}", is_error=True)]
+        return [Answer("Incorrect argument for command", is_error=True), _here(line)]
     is_answered = answer and realm.rule("sendCommandFeedback", "send_command_feedback", True)
     return [Answer(answer)] if is_answered else []
 
@@ -70,12 +72,6 @@ def _unknown(line: str, realm: Realm) -> list[Answer]:
         return [Answer("Unknown command", is_error=True), _here(line)]
     joint = ". See" if edition.since(1, 21, 9) else ", see"
     return [Answer(f"Unknown or incomplete command{joint} below for error", is_error=True), _here(line)]
-
-
-def _wrong(line: str, realm: Realm) -> list[Answer]:
-    if not realm.edition.since(1, 13):
-        return [Answer(f"Usage: /{line[1:].split()[0]}", is_error=True)]
-    return [Answer("Incorrect argument for command", is_error=True), _here(line)]
 
 
 def _here(line: str) -> Answer:

@@ -37,7 +37,8 @@ def test_random_screens_lie_within_the_world_and_fit_their_layout() -> None:
         assert abs(screen.yaw) <= 180
         assert abs(screen.pitch) <= 90
         assert (screen.entries is not None) == (layout in ("1.21.9-26.3", "26.4"))
-        assert screen.names_target
+        assert not screen.reduced
+        assert screen.entries is None or not {"looking_at_block", "looking_at_block_state"}.isdisjoint(screen.shown)
         assert not (screen.tags and layout in ("standin", "1.8-1.12"))
         if screen.target is not None:
             assert (screen.target.id or "").startswith("minecraft:") == (layout != "standin")

@@ -14,7 +14,8 @@ from sim.client.drawing.f3_layers import paint
 from sim.client.drawing.letters import Letters
 from sim.client.game.edition import Layout
 from sim.client.game.f3_screen import F3Screen
-from sim.client.game.f3_text import LAYOUTS, left_lines, right_lines
+from sim.client.game.f3_text import LAYOUTS
+from tests.sim.client.f3_lines import left_lines, right_lines
 from tests.sim.client.playing import FONT
 
 SCREEN = F3Screen("1.8-1.12", 2, (-8.5, 64.0, 100.25), 90.0, 65.0, Target((-9, 63, 101), "minecraft:stone"))

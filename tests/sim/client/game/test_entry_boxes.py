@@ -9,7 +9,8 @@ from sim.client.game.debug_entries import GAME_DEFAULT, known_entries, shown_ent
 from sim.client.game.edition import Edition
 from sim.client.game.entry_boxes import box_columns, stood_after
 from sim.client.game.f3_screen import F3Screen, Stood
-from sim.client.game.f3_text import both_columns, left_lines, right_lines
+from sim.client.game.f3_text import both_columns
+from tests.sim.client.f3_lines import left_lines, right_lines
 
 TARGET = Target((4, -61, 11), "minecraft:stone")
 SCREEN = F3Screen("26.4", 2, (-12.3, -59.0, -6.011), 58.0, 3.3, TARGET, version="26.4", size=(1920, 1080))

@@ -3,7 +3,7 @@ import pytest
 from mc_nested.live.model.reading import Target
 from sim.client.game.edition import Layout
 from sim.client.game.f3_screen import F3Screen, TextLine
-from sim.client.game.f3_text import left_lines, right_lines
+from tests.sim.client.f3_lines import left_lines, right_lines
 
 TARGET = Target((17, -63, -33), "minecraft:oak_log")
 

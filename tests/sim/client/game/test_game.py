@@ -349,7 +349,7 @@ def test_a_debug_screen_with_the_default_entries_names_no_target() -> None:
     for entries, is_named in ((GAME_DEFAULT, False), (TUTORIAL, True)):
         screen = VirtualGame(realm, debug_entries=entries).view().f3
         assert screen is not None
-        assert screen.names_target is is_named
+        assert ("looking_at_block" in screen.shown) is is_named
 
 
 def test_entries_that_are_always_on_are_shown_without_f3() -> None:
