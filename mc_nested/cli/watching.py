@@ -80,7 +80,7 @@ def times_of(game: Game) -> list[str]:
     """Return a line that says how long its actions took, and where that time went; none for the simulator."""
     taken = game.log.summary() if game.log else {}
     median = taken.get("action_s", {}).get("p50")
-    return [] if median is None else [f"  {median:.3f} s an action, in the median: {taken['share']}"]
+    return [] if median is None else [f"  {median:.3f} s an action (median); {taken['share']}"]
 
 
 def started_over(episode: Callable[[], Played]) -> Played:

@@ -183,7 +183,8 @@ class LiveGame:
         cell, self._cell = self._cell, None
         if announced not in (None, (action, material)):
             self._controller.release_all()
-            raise ValueError(f"{announced} was announced as the action that follows, not {(action, material)}")
+            was, now = (" and ".join(map(str, each)) for each in (announced, (action, material)))
+            raise ValueError(f"{was} was announced as the action that follows, not {now}: reset the game")
         told: dict[str, Fact] = {} if material is None else {"material": material}
         if following is not None and self._overlaps:
             told["following"] = (int(following[0]), following[1])

@@ -33,7 +33,7 @@ SIZES = {
     "python scripts/bench.py calibration --every-version": "--version 26.3 --actions 2",
     "python scripts/bench.py game-time": "--seeds 1 --scenarios line",
     "python scripts/bench.py learning": "--runs 1 --rounds 1 --slice-s 0.2",
-    "python scripts/bench.py live": "--actions 20 --frames 20 --tesseract 0 --builds 1",
+    "python scripts/bench.py live": "--actions 200 --frames 20 --tesseract 0 --builds 1",
     "python scripts/bench.py reader": "--frames 20 --tesseract 0",
     "python scripts/bench.py rehearsal": "--actions 4 --only '60 fps' --json",
     "python scripts/draw.py film": "film.gif --scenario line",

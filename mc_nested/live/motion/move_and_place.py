@@ -164,9 +164,14 @@ class Body:
     def _find_out(self, leg: Leg, built: Mapping[Cell, str], shown_id: str) -> Cell | None:
         """Do what is left of an action that didn't come as planned, once the agent stands still."""
         has_clicked = self._overlap.has_clicked
-        state, pose = self._locomotion.follow_to_end(self._observer.look_and_check())
-        if self._overlap.may_have_placed_elsewhere(state.end):
-            raise NotConfirmedError(f"the agent was carried on while it clicked, to {pose}: does something push it?")
+        state, _ = self._locomotion.follow_to_end(self._observer.look_and_check())
+        for other in self._overlap.may_have_hit(state.end):
+            behind = other[0], other[1] - 1
+            if not is_inside(behind, self._arena.size) or behind in built:
+                raise NotConfirmedError(
+                    f"a click may have placed a block in cell {other}, which can't be looked at: start the episode over"
+                )
+            self.check_front(self.move_to(behind, tries_made=1), built)
         if not has_clicked:
             return self._do(leg, built, shown_id)
         self.move_to(leg.cell, tries_made=1)

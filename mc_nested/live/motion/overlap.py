@@ -145,20 +145,22 @@ class Overlap:
                 return is_done
         return False
 
-    def may_have_placed_elsewhere(self, end: GroundVector) -> bool:
-        """Return whether the last action's click may have placed a block elsewhere, if the walker stopped there."""
-        action = self._action
+    def may_have_hit(self, end: GroundVector) -> set[Cell]:
+        """Return the other cells where the last action's click may have placed a block; the walker stopped at ``end``.
+
+        It was felt before the keys were, so somewhere on the way.
+        """
+        action, found = self._action, set[Cell]()
         if action is None or not action.is_clicked:
-            return False
-        front, landing = front_of(action.leg.cell), action.planner.around.landing
+            return found
         for one, other in pairwise([*action.swept, end]):
             right, forward = other.right - one.right, other.forward - one.forward
             steps = 1 + math.ceil(max(abs(right), abs(forward)) / SWEEP)
             for step in range(steps + 1):
-                share = step / steps
-                if landing(GroundVector(one.right + share * right, one.forward + share * forward)) not in (front, None):
-                    return True
-        return False
+                felt_at = GroundVector(one.right + step / steps * right, one.forward + step / steps * forward)
+                if cell := action.planner.around.landing(felt_at):
+                    found.add(cell)
+        return found - {front_of(action.leg.cell)}
 
     @property
     def has_clicked(self) -> bool:

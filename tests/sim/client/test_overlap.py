@@ -155,6 +155,18 @@ def test_actions_stop_overlapping_where_ticks_are_not_as_expected() -> None:
     assert client.window.down == set()
 
 
+@pytest.mark.parametrize("name", ["line", "diamond"])
+@pytest.mark.parametrize("in_s", [0.85, 1.1, 1.35, 1.6, 1.85])
+def test_a_refused_block_is_placed_again_once_it_is_seen_that_none_landed_elsewhere(name: str, in_s: float) -> None:
+    client, scenario = VirtualClient(seed=3), load_scenario(name)
+    with play(client, scenario) as game:
+        warm(client, game)
+        client.mishaps.plan("refused_placing", in_s)
+        build_told(game, build(scenario))
+    assert client.placed(arena_of(client)) == set(scenario.design)
+    assert client.window.down == set()
+
+
 def _knock(client: VirtualClient, _game: LiveGame) -> None:
     client.game.knock((0.3, 0.2, 0.3))
 
