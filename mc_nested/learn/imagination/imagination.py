@@ -263,9 +263,9 @@ class Imagination:
     def state(self) -> Arrays:
         """Return everything that later steps depend on, by name."""
         every = (named_for(str(run), seen.state()) for run, seen in enumerate(self._experience))
-        first_tries = {"explores": self._explores, "falls_short": self._falls_short}
         return {
-            **first_tries,
+            "explores": self._explores,
+            "falls_short": self._falls_short,
             "untried": self._untried,
             "unclear": self._unclear,
             "tries": self._tries,
@@ -302,7 +302,7 @@ class Imagination:
         steps, landed = steps[own], landed[own]
         appended = len(self._space.strides) - 3
         last = np.repeat(steps[:, 8:], appended, axis=1)
-        index = self._space.index
+        index = self._space.encoded
         return RealTransitions(
             index(np.hstack((steps[:, 0:3], last))),
             index(np.hstack((steps[:, 4:7], last))),
