@@ -22,7 +22,7 @@ from mc_nested.arena.env import BLOCKS_LEFT, highest_observation
 from mc_nested.arena.planes import FULL, PLANES, PlanesVectorEnv, common_size, shares, start_planes, with_material
 from mc_nested.arena.scenario import Scenario
 from mc_nested.arena.single import SingleAgentVectorEnv
-from mc_nested.arrays import Arrays, Bytes, Float64s, Int64s, named_for, part_of
+from mc_nested.arrays import Arrays, Float64s, Int64s, named_for, part_of
 from mc_nested.errors import PresetError
 from mc_nested.learn.builders import Builders, check_builders
 from mc_nested.learn.dqn.engine import NetworkForm
@@ -158,10 +158,10 @@ class Agent:
         ``materials`` are (runs,). To numbers, a_M is one number more. To planes, it is one plane more: "one extra
         dimension".
         """
-        if self._sees != NUMBERS:
-            return self._with_material(observations, materials)
         if not self.spec.appends_material:
-            return observations[:, : BLOCKS_LEFT + 1 + self.spec.sees_choice]
+            return observations[:, : (BLOCKS_LEFT + 1 if self._sees == NUMBERS else PLANES) + self.spec.sees_choice]
+        if self._sees != NUMBERS:
+            return with_material(observations, shares(materials + 1, self._materials))
         if not self._numbered:
             return np.concatenate((observations, materials[:, None]), axis=1)
         numbers = np.tile(np.arange(self.builders), len(materials))
@@ -170,11 +170,6 @@ class Agent:
     def _of_builders(self, of_runs: NDArray[Any]) -> NDArray[Any]:
         """Repeat what is given for each run for each of its builders: (runs * builders,)."""
         return of_runs if self.builders == 1 else np.repeat(of_runs, self.builders)
-
-    def _with_material(self, planes: Bytes, materials: Int64s) -> Bytes:
-        if not self.spec.appends_material:
-            return planes[:, : PLANES + self.spec.sees_choice]
-        return with_material(planes, shares(materials + 1, self._materials))
 
     def view_of(self, env: VectorEnv[Any, Int64s, Any], scenarios: Sequence[Scenario]) -> VectorEnv[Any, Int64s, Any]:
         """Return the arenas as the agent sees them: in its states.

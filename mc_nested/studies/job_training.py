@@ -30,34 +30,27 @@ class TrainedJob(Protocol):
     @property
     def finished(self) -> bool:
         """Whether every run has ended: then ``finish`` is next."""
-        ...
 
     @property
     def episodes_done(self) -> Int64s:
         """Training episodes completed, (runs,)."""
-        ...
 
     @property
     def evaluation_rows(self) -> Sequence[EvaluationRow]:
         """The greedy episodes so far, of all runs."""
-        ...
 
     @property
     def updates(self) -> int:
         """Updates of all networks so far."""
-        ...
 
     def tick(self) -> None:
         """Train a little."""
-        ...
 
     def save(self) -> None:
         """Save what the rest of the training needs: after it, a new one of the same job and folder goes on."""
-        ...
 
     def finish(self) -> None:
         """Write the outcome, and leave nothing else."""
-        ...
 
 
 class SpendingCount:

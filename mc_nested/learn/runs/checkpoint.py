@@ -50,11 +50,9 @@ class Journalled(Protocol):
 
     def marks(self) -> Arrays:
         """Return the length of the journal now, for ``journal``."""
-        ...
 
     def journal(self, since: Mapping[str, NDArray[Any]] | None) -> Arrays:
         """Return what was added since those marks; everything if there are none."""
-        ...
 
     def load(self, state: Mapping[str, NDArray[Any]], journals: list[Arrays]) -> None: ...
 
