@@ -75,8 +75,7 @@ class Training:
     @property
     def policy_scores(self) -> Float64s:
         """The greedy score of the policy that each run keeps, (runs,)."""
-        scores: Float64s = self.policies["scores"]
-        return scores
+        return self.policies["scores"]
 
     @property
     def epsilon(self) -> tuple[Float64s, Float64s]:

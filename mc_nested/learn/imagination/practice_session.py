@@ -267,5 +267,4 @@ def landed_cells(steps: Int64s, lands: Cell, arena: ImaginedArena) -> Int64s:
     """
     used = steps[:, 2] > steps[:, 6]
     cells = np.array([index_of((x + lands[0], y + lands[1]), arena) for x, y in steps[:, 4:6].tolist()], dtype=np.int64)
-    landed: Int64s = np.where(used, cells, NOWHERE)
-    return landed
+    return np.where(used, cells, NOWHERE)

@@ -121,8 +121,7 @@ def begin_tables(tables: QTables, random: Generator) -> None:
 @compiled(nogil=True)
 def longest_episode(task: ImaginedTask) -> int:
     """Return how many numbers an episode uses at most."""
-    longest: int = 3 + 2 * task.step_limit
-    return longest
+    return 3 + 2 * task.step_limit
 
 
 @compiled(nogil=True)
