@@ -13,14 +13,7 @@ from mc_nested.learn.dqn.compiled_engine.engine import compiled_engine
 from mc_nested.learn.dqn.compiled_engine.networks import initial_parameters, parameter_count
 from mc_nested.learn.dqn.states import numbered
 from mc_nested.learn.imagination.arena_step import NOWHERE, ImaginedArena, ImaginedTask, index_of
-from mc_nested.learn.imagination.practice_kernel import (
-    PracticeReplay,
-    PracticeRule,
-    Progress,
-    Row,
-    Workspace,
-    practise,
-)
+from mc_nested.learn.imagination.practice_kernel import PracticeReplay, PracticeRule, Progress, Row, Workspace, practise
 from mc_nested.learn.imagination.table_learner import QTables, empty_tables, empty_trail, longest_episode
 from mc_nested.learn.imagination.table_practice import TablePractice
 from mc_nested.learn.learner import Learner
@@ -221,14 +214,7 @@ class NetworkPractice:
             engine.check_finite(row, parts.online)
 
         longest = max(2 + goal.step_limit * (2 + self._batch), longest_episode(task))
-        return PracticeSession(
-            own,
-            begin,
-            practise_on,
-            goal,
-            random,
-            max(NUMBERS_AT_ONCE, 2 * longest),
-        )
+        return PracticeSession(own, begin, practise_on, goal, random, max(NUMBERS_AT_ONCE, 2 * longest))
 
     def _tables_for(self, arena: ImaginedArena, step_limit: int) -> QTables:
         """Return this learner's tables, made anew if the arena has another number of cells than before."""

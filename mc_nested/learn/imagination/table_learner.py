@@ -27,14 +27,7 @@ from mc_nested.learn.imagination.arena_step import (
     state_at,
     step,
 )
-from mc_nested.learn.imagination.built_values import (
-    BuiltValues,
-    begin_values,
-    empty_values,
-    forget,
-    is_full,
-    row_of,
-)
+from mc_nested.learn.imagination.built_values import BuiltValues, begin_values, empty_values, forget, is_full, row_of
 
 AROUND = 8
 """The cells around a cell: whether each is built makes as many bits of its surroundings."""

@@ -67,10 +67,7 @@ class Checkpoint:
     """
 
     def __init__(
-        self,
-        folder: Path,
-        identity: Mapping[str, Any],
-        remedy: str = "bring back a whole copy, or train the run again",
+        self, folder: Path, identity: Mapping[str, Any], remedy: str = "bring back a whole copy, or train the run again"
     ) -> None:
         self._folder = folder
         self._remedy = remedy
