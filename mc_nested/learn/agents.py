@@ -141,12 +141,9 @@ class Agent:
             chooses, builds = self._planes(len(scenarios), shape)
         self.main = Learner(chooses, preset.for_main(), streams) if spec.has_main else None
         self._longest = self._share_a_row * max(scenario.step_limit for scenario in scenarios)
-        self.low_level = Learner(
-            builds,
-            preset,
-            [stream for stream in streams for _ in range(self._rows_a_run)],
-            (preset.imitation, self._longest) if preset.imitation else None,
-        )
+        each = [stream for stream in streams for _ in range(self._rows_a_run)]
+        imitation = (preset.imitation, self._longest) if preset.imitation else None
+        self.low_level = Learner(builds, preset, each, imitation)
 
     @property
     def _rows_a_run(self) -> int:

@@ -76,14 +76,8 @@ class LearntGame(Practice):
         return self._broken[run] <= 0 and self.imagination.first_tries(run).are_over
 
     def learn(self, step: Step) -> None:
-        self.imagination.observe(
-            step.running.nonzero()[0],
-            step.observations,
-            step.materials,
-            step.actions,
-            step.rewards,
-            step.next_observations,
-        )
+        done = step.materials, step.actions, step.rewards, step.next_observations
+        self.imagination.observe(step.running.nonzero()[0], step.observations, *done)
         self._excursions.observe(step, self._agent.low_level_states(step.next_observations, step.next_materials))
 
     def end(self, runs: Int64s, materials: Int64s, scores: Float64s) -> None:

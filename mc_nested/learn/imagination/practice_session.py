@@ -152,18 +152,9 @@ class NetworkPractice:
     def __init__(self, learner: Learner, preset: Preset, rule: ImaginationRule) -> None:
         self._engine, self._space = compiled_engine(learner.engine), numbered(learner.states)
         update = preset.update
-        self._rule = PracticeRule(
-            update.gamma,
-            update.learning_rate,
-            update.target_period,
-            update.huber_delta,
-            update.learning_starts,
-            rule.highest_epsilon,
-            rule.lowest_epsilon,
-            rule.double,
-            rule.n_steps,
-            BY_TABLE,
-        )
+        own = update.gamma, update.learning_rate, update.target_period, update.huber_delta, update.learning_starts
+        epsilons = rule.highest_epsilon, rule.lowest_epsilon
+        self._rule = PracticeRule(*own, *epsilons, rule.double, rule.n_steps, BY_TABLE)
         self._batch = update.batch
         self._replay = PracticeReplay(
             states=np.zeros(CAPACITY, np.int32),
@@ -197,7 +188,10 @@ class NetworkPractice:
             rule = rule._replace(by_table=0.0)
 
         def begin() -> None:
-            self._begin_with(real)
+            count = min(len(real.states), CAPACITY)
+            for kept, given in zip(self._replay, real, strict=False):
+                kept[:count] = given[-CAPACITY:]
+            self._replay.added[0] = count
             work.seen_in[:] = -1
             if goal.anew:
                 own.online[:] = own.target[:] = initial_parameters(engine.sizes, random)
@@ -222,13 +216,6 @@ class NetworkPractice:
         if self._tables is None or len(self._tables.built.here) != cells:
             self._tables = empty_tables(space.count, space.actions, cells)
         return self._tables._replace(trail=empty_trail(step_limit), best=empty_trail(step_limit))
-
-    def _begin_with(self, real: RealTransitions) -> None:
-        kept = slice(-CAPACITY, None)
-        count = len(real.states[kept])
-        for own, given in zip(self._replay, real, strict=False):
-            own[:count] = given[kept]
-        self._replay.added[0] = count
 
     def _workspace(self, row: int) -> Workspace:
         sizes, space = self._engine.sizes, self._space

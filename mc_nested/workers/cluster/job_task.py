@@ -166,9 +166,6 @@ def wanted_here(worker: "Worker") -> Callable[[], bool]:
     return is_wanted
 
 
-WHY_LOST = "if nobody stopped them, it needs more memory than they have"
-
-
 def landed_from(trained: Trained, folder: Path) -> JobEnded:
     """Put what a worker sent into the job's folder: how the job ended. RunError if the disk refuses."""
     try:
@@ -184,11 +181,6 @@ def cancel(future: Future[JobEnded]) -> None:
     """Let whoever waits for it know that it was cancelled."""
     future.cancel()
     future.set_running_or_notify_cancel()
-
-
-def lost(job: Job, workers: int) -> RunError:
-    """Return the end of a job that was lost with each of so many workers, and is given up."""
-    return RunError(f"job {job.name} was lost with each of {workers} workers: {WHY_LOST}")
 
 
 def in_words(job: Job, error: Exception) -> RunError:

@@ -71,10 +71,7 @@ class CompiledEngine:
     """
 
     def __init__(self, space: StateSpace, sizes: Sizes, rule: UpdateRule, online: Float32s) -> None:
-        self.space = space
-        self.sizes = sizes
-        self.rule = rule
-        self.online = online
+        self.space, self.sizes, self.rule, self.online = space, sizes, rule, online
         self.target = online.copy()
         self.updates: Int64s = np.zeros(len(online), dtype=np.int64)
         self._first_moment, self._second_moment = np.zeros_like(online), np.zeros_like(online)
@@ -109,16 +106,9 @@ class CompiledEngine:
     def update(self, rows: Int64s, batch: Batch) -> Float32s:
         if batch.actions.shape != (len(rows), self.rule.batch):
             raise ValueError(f"batches of {batch.actions.shape}, not {(len(rows), self.rule.batch)}")
-        finite, renews = _update_rows(
-            rows,
-            self._networks,
-            tuple(batch),
-            (self._parts, self.space.first_of(rows), self._target_values.values, self.target),
-            self._widths,
-            tuple(self.rule),
-            self._learning,
-            self._estimates,
-        )
+        states = self._parts, self.space.first_of(rows), self._target_values.values, self.target
+        how = self._widths, tuple(self.rule), self._learning, self._estimates
+        finite, renews = _update_rows(rows, self._networks, tuple(batch), states, *how)
         if not finite:
             raise diverged(self.rule, self.updates[rows])
         if renews:
