@@ -22,7 +22,7 @@ from mc_nested.arena.env import BLOCKS_LEFT, highest_observation
 from mc_nested.arena.planes import FULL, PLANES, PlanesVectorEnv, common_size, shares, start_planes, with_material
 from mc_nested.arena.scenario import Scenario
 from mc_nested.arena.single import SingleAgentVectorEnv
-from mc_nested.arrays import Arrays, Bytes, Float64s, Int64s, named_for, part_of
+from mc_nested.arrays import Arrays, Float64s, Int64s, named_for, part_of
 from mc_nested.errors import PresetError
 from mc_nested.learn.builders import Builders, check_builders
 from mc_nested.learn.dqn.engine import NetworkForm
@@ -141,12 +141,9 @@ class Agent:
             chooses, builds = self._planes(len(scenarios), shape)
         self.main = Learner(chooses, preset.for_main(), streams) if spec.has_main else None
         self._longest = self._share_a_row * max(scenario.step_limit for scenario in scenarios)
-        self.low_level = Learner(
-            builds,
-            preset,
-            [stream for stream in streams for _ in range(self._rows_a_run)],
-            (preset.imitation, self._longest) if preset.imitation else None,
-        )
+        each = [stream for stream in streams for _ in range(self._rows_a_run)]
+        imitation = (preset.imitation, self._longest) if preset.imitation else None
+        self.low_level = Learner(builds, preset, each, imitation)
 
     @property
     def _rows_a_run(self) -> int:
@@ -158,10 +155,10 @@ class Agent:
         ``materials`` are (runs,). To numbers, a_M is one number more. To planes, it is one plane more: "one extra
         dimension".
         """
-        if self._sees != NUMBERS:
-            return self._with_material(observations, materials)
         if not self.spec.appends_material:
-            return observations[:, : BLOCKS_LEFT + 1 + self.spec.sees_choice]
+            return observations[:, : (BLOCKS_LEFT + 1 if self._sees == NUMBERS else PLANES) + self.spec.sees_choice]
+        if self._sees != NUMBERS:
+            return with_material(observations, shares(materials + 1, self._materials))
         if not self._numbered:
             return np.concatenate((observations, materials[:, None]), axis=1)
         numbers = np.tile(np.arange(self.builders), len(materials))
@@ -170,11 +167,6 @@ class Agent:
     def _of_builders(self, of_runs: NDArray[Any]) -> NDArray[Any]:
         """Repeat what is given for each run for each of its builders: (runs * builders,)."""
         return of_runs if self.builders == 1 else np.repeat(of_runs, self.builders)
-
-    def _with_material(self, planes: Bytes, materials: Int64s) -> Bytes:
-        if not self.spec.appends_material:
-            return planes[:, : PLANES + self.spec.sees_choice]
-        return with_material(planes, shares(materials + 1, self._materials))
 
     def view_of(self, env: VectorEnv[Any, Int64s, Any], scenarios: Sequence[Scenario]) -> VectorEnv[Any, Int64s, Any]:
         """Return the arenas as the agent sees them: in its states.

@@ -84,9 +84,7 @@ class MainChoices(OwnChoices):
 
     def __init__(self, agent: Agent, main: Learner, scenarios: Sequence[Scenario], preset: Preset, seed: int) -> None:
         super().__init__(agent)
-        self._main = main
-        self._preset = preset
-        self._seed = seed
+        self._main, self._preset, self._seed = main, preset, seed
         self._has_parts = any(scenario.parts for scenario in scenarios)
         self._start = agent.start_states(scenarios)
         self._chosen_in = self._start.copy()

@@ -44,13 +44,8 @@ class Learner:
     ) -> None:
         update = preset.update
         self.states = states
-        rule = UpdateRule(
-            update.batch,
-            update.learning_rate,
-            update.target_period,
-            update.huber_delta,
-            imitation[0].margin if imitation else 0.0,
-        )
+        margin = imitation[0].margin if imitation else 0.0
+        rule = UpdateRule(update.batch, update.learning_rate, update.target_period, update.huber_delta, margin)
         self.engine = made_engine(states, preset.engine_choice, rule, streams)
         self.replay = Replay(states, preset.replay_capacity)
         wanted = preset.prioritized

@@ -45,17 +45,14 @@ class LearntGame(Practice):
 
     def __init__(self, agent: Agent, preset: Preset, imagination: Imagination, scenarios: Sequence[Scenario]) -> None:
         super().__init__(agent, preset)
-        self._imagination, self._excursions = imagination, Excursions(agent, preset, INSTEAD, scenarios)
+        self.imagination: Imagination = imagination
+        self._excursions = Excursions(agent, preset, INSTEAD, scenarios)
         # What doesn't hold of each run's learnt game; negative while that has its turn all the same.
         self._broken, self._news = np.zeros(len(scenarios), dtype=np.int64), list[str]()
 
-    @property
-    def imagination(self) -> Imagination:
-        return self._imagination
-
     def before_choice(self, runs: Int64s, elsewhere: Collection[int] = ()) -> None:
         for run in runs.tolist():
-            self._imagination.learn_choice(run, elsewhere)
+            self.imagination.learn_choice(run, elsewhere)
 
     def before_episode(self, runs: Int64s, materials: Int64s, reset: Callable[[], None]) -> Bools:
         practised = [self.practise(run, int(materials[run]), None, None) for run in runs.tolist()]
@@ -64,37 +61,31 @@ class LearntGame(Practice):
 
     def practise(self, run: int, material: int, number: int | None, elsewhere: Collection[Cell] | None) -> bool:
         if self._broken[run] > 0:
-            return self._excursions.teach_best(run, material, self._imagination.stream(run))
-        return self._imagination.practise(run, material, number, elsewhere)
+            return self._excursions.teach_best(run, material, self.imagination.stream(run))
+        return self.imagination.practise(run, material, number, elsewhere)
 
     def begin(self, runs: Int64s, numbers: Float64s) -> None:
-        self._imagination.begin(runs)
+        self.imagination.begin(runs)
         self._excursions.begin(runs, numbers * (self._broken > 0)[:, None])
 
     def act(self, runs: Int64s, observations: NDArray[Any], actions: Int64s, numbers: Float64s) -> Int64s:
-        actions[runs] = self._imagination.act(runs, actions)
+        actions[runs] = self.imagination.act(runs, actions)
         return self._excursions.act(runs[self._broken[runs] > 0], observations, actions, numbers)
 
     def is_settled(self, run: int) -> bool:
-        return self._broken[run] <= 0 and self._imagination.first_tries(run).are_over
+        return self._broken[run] <= 0 and self.imagination.first_tries(run).are_over
 
     def learn(self, step: Step) -> None:
-        self._imagination.observe(
-            step.running.nonzero()[0],
-            step.observations,
-            step.materials,
-            step.actions,
-            step.rewards,
-            step.next_observations,
-        )
+        done = step.materials, step.actions, step.rewards, step.next_observations
+        self.imagination.observe(step.running.nonzero()[0], step.observations, *done)
         self._excursions.observe(step, self._agent.low_level_states(step.next_observations, step.next_materials))
 
     def end(self, runs: Int64s, materials: Int64s, scores: Float64s) -> None:
-        self._imagination.end(runs, materials, scores)
+        self.imagination.end(runs, materials, scores)
         self._excursions.end(runs, materials, scores)
         self._broken[runs] *= -1  # the learnt game has its turn, or the excursions
         for run in runs[self._broken[runs] == 0].tolist():
-            self._broken[run] = broken = self._imagination.broken_assumption(run)
+            self._broken[run] = broken = self.imagination.broken_assumption(run)
             if broken:
                 what = f"the learnt game doesn't hold: {IN_WORDS[broken]}; every other episode is an excursion now"
                 self._news.append(f"trial {run}: {what}" if len(self._broken) > 1 else what)
@@ -104,24 +95,24 @@ class LearntGame(Practice):
             return EPSILON_INSTEAD
         # Another game already plays what an untaught network says, which may stand still. By chance other cells are
         # tried in each game, and an episode ends sooner.
-        return 1.0 if games and not self._imagination.has_experience(run) else epsilon
+        return 1.0 if games and not self.imagination.has_experience(run) else epsilon
 
     def news(self) -> list[str]:
         told, self._news = self._news, []
         return told
 
     def probes(self, run: int, material: int) -> frozenset[Cell]:
-        return frozenset() if self._broken[run] > 0 else self._imagination.probes(run, material)
+        return frozenset() if self._broken[run] > 0 else self.imagination.probes(run, material)
 
     def first_tries(self, run: int, games: int) -> FirstTries | None:
-        return None if self._broken[run] > 0 else self._imagination.first_tries(run).beside(games)
+        return None if self._broken[run] > 0 else self.imagination.first_tries(run).beside(games)
 
     def state(self) -> Arrays:
         excursions = named_for("excursions", self._excursions.state())
-        return {**self._imagination.state(), **excursions, "broken": self._broken}
+        return {**self.imagination.state(), **excursions, "broken": self._broken}
 
     def load(self, state: Mapping[str, NDArray[Any]]) -> None:
-        self._imagination.load(state)
+        self.imagination.load(state)
         self._excursions.load(part_of(state, "excursions"))
         self._broken[:] = state["broken"]
 
@@ -155,9 +146,9 @@ class LearntGameBesideIt(LearntGame):
     def before_episode(self, runs: Int64s, materials: Int64s, reset: Callable[[], None]) -> Bools:
         broken, own = runs[self._broken[runs] > 0].tolist(), runs[self._broken[runs] <= 0].tolist()
         practised = {run: self.practise(run, int(materials[run]), None, None) for run in broken}
-        sessions = {run: self._imagination.session(run, int(materials[run])) for run in own}
+        sessions = {run: self.imagination.session(run, int(materials[run])) for run in own}
         self._background.during_reset(sessions, reset)
-        practised |= {run: self._imagination.builds_it_all(run, session) for run, session in sessions.items()}
+        practised |= {run: self.imagination.builds_it_all(run, session) for run, session in sessions.items()}
         self._background.during_episode()
         return np.array([practised[run] for run in runs.tolist()], dtype=np.bool_)
 

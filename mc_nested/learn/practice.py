@@ -60,14 +60,11 @@ class Practice:
     numbers = 0
     """Random numbers that it needs for each run and tick."""
 
-    def __init__(self, agent: Agent, preset: Preset) -> None:
-        self._agent = agent
-        self._preset = preset
+    imagination: Imagination | None = None
+    """What the runs have learnt of their games; None if the preset has no [imagination]."""
 
-    @property
-    def imagination(self) -> Imagination | None:
-        """What the runs have learnt of their games; None if the preset has no [imagination]."""
-        return None
+    def __init__(self, agent: Agent, preset: Preset) -> None:
+        self._agent, self._preset = agent, preset
 
     @property
     def evaluate_every(self) -> int:

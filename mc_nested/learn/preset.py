@@ -7,7 +7,7 @@ from typing import Annotated, Any, Literal
 from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
 
 from mc_nested.errors import PresetError
-from mc_nested.learn.dqn.engines import Computing, EngineChoice, misfit
+from mc_nested.learn.dqn.engines import EngineChoice, misfit
 from mc_nested.toml_file import parse_toml, read_shipped_or_named
 
 MOST = 1_000_000_000
@@ -221,9 +221,9 @@ class Preset(_Table):
 
     @model_validator(mode="after")
     def _check_engine(self) -> "Preset":
-        computing = Computing(self.engine, self.device, self.network, self.states)
         wrong = misfit(
-            computing,
+            self.engine_choice,
+            self.states,
             explores_by_place=self.excursions is not None,
             imagines=self.imagination is not None,
             encoding=self.encoding,

@@ -15,7 +15,7 @@ from mc_nested.learn.agents import Agent
 from mc_nested.learn.choices import choices_of
 from mc_nested.learn.episode_log import EpisodeRow, EvaluationRow, rows_of_table, table_of_rows
 from mc_nested.learn.exploration.return_then_explore import Excursions
-from mc_nested.learn.exploration.schedules import decays_of
+from mc_nested.learn.exploration.schedules import decays_of, epsilon_after
 from mc_nested.learn.imagination.background_practice import Background
 from mc_nested.learn.imagination.imagination import Imagination
 from mc_nested.learn.learnt_game import LearntGame, LearntGameBesideIt, imagination_of
@@ -75,8 +75,7 @@ class Training:
     @property
     def policy_scores(self) -> Float64s:
         """The greedy score of the policy that each run keeps, (runs,)."""
-        scores: Float64s = self.policies["scores"]
-        return scores
+        return self.policies["scores"]
 
     @property
     def epsilon(self) -> tuple[Float64s, Float64s]:
@@ -168,7 +167,7 @@ class Training:
         """Return ``epsilon``, for as long as no training episode ends: every tick needs it."""
         main, nested = self._decays
         done, episodes = self.episodes_done, self.preset.episodes
-        return main.epsilon(done, episodes), nested.epsilon(done, episodes)
+        return epsilon_after(done, episodes, main), epsilon_after(done, episodes, nested)
 
 
 def practice_of(

@@ -83,17 +83,16 @@ class FilmedGame:
             self._material = material
             self._tally.take(THE_ARENA, np.array([material]))
         if outcome.placed is not None:
-            self._count(*outcome.placed)
+            if len(self._placed) < self._scenario.blocks:  # what is placed after the episode's end earns nothing
+                x, y = outcome.placed
+                self._tally.lay(THE_ARENA, self._tally.pays(np.array([x]), np.array([y])))
             self._placed.add(outcome.placed)
         self._show(outcome.cell)
         return outcome
 
-    def _count(self, x: int, y: int) -> None:
-        if len(self._placed) < self._scenario.blocks:  # what is placed after the episode's end earns nothing
-            self._tally.lay(THE_ARENA, self._tally.pays(np.array([x]), np.array([y])))
-
     def _show(self, cell: Cell) -> None:
-        at = self._window.now() - self._began if self._window else self._simulated_s()
+        simulated_s = FIRST_S + (self._steps - 1) * STEP_S if self._steps else 0.0
+        at = self._window.now() - self._began if self._window else simulated_s
         score = float(self._tally.total(THE_ARENA)[0])
         moment = Moment(cell, self._placed, self._steps, self._material, score)
         picture = draw_moment(self._scenario, moment, self._arena_px)
@@ -102,6 +101,3 @@ class FilmedGame:
             self._box = self._box or box_for(window, self._arena_px)
             picture = beside(picture, window, self._box)
         self._film.show(picture, at)
-
-    def _simulated_s(self) -> float:
-        return FIRST_S + (self._steps - 1) * STEP_S if self._steps else 0.0

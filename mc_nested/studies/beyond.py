@@ -167,18 +167,7 @@ MORE = """\
 - The states "screen" are not among these: they need a game's window."""
 
 
-COLUMNS = (
-    "topic",
-    "scenario",
-    "agent",
-    "trial",
-    "episode",
-    "score",
-    "material",
-    "steps",
-    "trained_steps",
-    "updates",
-)
+COLUMNS = ("topic", "scenario", "agent", "trial", "episode", "score", "material", "steps", "trained_steps", "updates")
 
 
 def report(config: StudyConfig, trials: Sequence[Trial]) -> Report:

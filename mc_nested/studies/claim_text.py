@@ -97,24 +97,16 @@ def method(claims: Sequence[JudgedClaim], trials: int, keeps_best: bool) -> str:
         smallest=probability(1 / (RESAMPLES + 1)),
         kept=KEPT[keeps_best],
     )
-    smallest = _smallest_p(trials)
+    smallest = max(0.5**trials, 1 / (RESAMPLES + 1))  # p where no other choice of the signs is as extreme
     if trials < 2:
         return text
     if smallest >= ALPHA:
         return text + TOO_FEW_TRIALS.format(trials=trials, smallest=probability(smallest))
     lines = int(ALPHA / smallest) + 1
-    if lines <= max((_tested(judged) for judged in claims), default=0):
+    tested = [sum(finding.evidence.tails is not None for finding in judged.findings) for judged in claims]
+    if lines <= max(tested, default=0):
         return text + TOO_FEW_AGAINST.format(trials=trials, smallest=probability(smallest), lines=lines)
     return text
-
-
-def _tested(judged: JudgedClaim) -> int:
-    return sum(finding.evidence.tails is not None for finding in judged.findings)
-
-
-def _smallest_p(trials: int) -> float:
-    """Return the p-value of a sign-flip test that finds no other choice of the signs as extreme."""
-    return max(0.5**trials, 1 / (RESAMPLES + 1))
 
 
 def _figures(evidence: Evidence) -> str:

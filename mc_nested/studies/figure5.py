@@ -37,7 +37,8 @@ def figure5(results: Results) -> Figure:
     figure = Figure(figsize=(max(6.0, 4.3 * columns), 3.8 * rows + 0.5), dpi=160, layout="constrained")
     panels = list(figure.subplots(rows, columns, sharey=True, squeeze=False).flat)
     for axes, scenario in zip(panels, results.scenarios, strict=False):
-        _draw_levels(axes, results, scenario)
+        axes.axhline(results.optimum[scenario], zorder=1, **OPTIMUM)
+        axes.axhline(results.builder[scenario], zorder=1, **BUILDER)
         for agent in results.agents:
             _draw_curve(axes, agent, results.curves[agent, scenario], results.optimum[scenario])
         axes.set_title(scenario, parse_math=False)  # users name scenarios, so dollar signs may appear
@@ -54,11 +55,6 @@ def figure5(results: Results) -> Figure:
         unused.remove()
     figure.legend(handles=_legend(results), loc="outside lower center", ncols=2 * columns, frameon=False)
     return figure
-
-
-def _draw_levels(axes: Axes, results: Results, scenario: str) -> None:
-    axes.axhline(results.optimum[scenario], zorder=1, **OPTIMUM)
-    axes.axhline(results.builder[scenario], zorder=1, **BUILDER)
 
 
 def _draw_curve(axes: Axes, agent: str, curve: Curve, optimum: float) -> None:

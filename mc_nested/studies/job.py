@@ -3,7 +3,7 @@
 What a run learns depends on its seed and its trial, not on its batch: the division changes nothing but the time.
 """
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import asdict, dataclass
 from itertools import accumulate, groupby
 from typing import Any
@@ -124,7 +124,7 @@ def cut_into_jobs(runs: Sequence[Run], parts: int, seed: int) -> list[Job]:
     """
     batches = _of_few_trials([run for run in runs if run.together is not None])
     if free := [run for run in runs if run.together is None]:
-        batches += [batch for part in _in_parts(free, parts) for batch in _batches(part)]
+        batches += [list(batch) for part in _in_parts(free, parts) for _, batch in groupby(part, _kind)]
     jobs = [_job(f"{number:03d}", batch, seed) for number, batch in enumerate(batches)]
     turns = {job.name: batch[0].turn for job, batch in zip(jobs, batches, strict=True)}
     return sorted(jobs, key=lambda job: (turns[job.name], -job.work))
@@ -149,10 +149,6 @@ def _in_parts(runs: Sequence[Run], parts: int) -> list[list[Run]]:
         twice_the_middle = 2 * end - own
         shared[twice_the_middle * parts // (2 * ends[-1])].append(run)
     return shared
-
-
-def _batches(runs: Iterable[Run]) -> list[list[Run]]:
-    return [list(batch) for _, batch in groupby(runs, _kind)]
 
 
 def _kind(run: Run) -> tuple[object, ...]:

@@ -30,45 +30,38 @@ class TrainedJob(Protocol):
     @property
     def finished(self) -> bool:
         """Whether every run has ended: then ``finish`` is next."""
-        ...
 
     @property
     def episodes_done(self) -> Int64s:
         """Training episodes completed, (runs,)."""
-        ...
 
     @property
     def evaluation_rows(self) -> Sequence[EvaluationRow]:
         """The greedy episodes so far, of all runs."""
-        ...
 
     @property
     def updates(self) -> int:
         """Updates of all networks so far."""
-        ...
 
     def tick(self) -> None:
         """Train a little."""
-        ...
 
     def save(self) -> None:
         """Save what the rest of the training needs: after it, a new one of the same job and folder goes on."""
-        ...
 
     def finish(self) -> None:
         """Write the outcome, and leave nothing else."""
-        ...
 
 
 class SpendingCount:
     """Counts what each of so many runs has spent, beside their trainer.
 
-    ``at``: (steps, updates) of each evaluation, in their order.
+    ``at``: (steps, updates) of each evaluation, in their order; ``steps`` (runs,): those so far.
     """
 
     def __init__(self, runs: int) -> None:
         self.at: list[tuple[int, int]] = []
-        self._steps = np.zeros(runs, dtype=np.int64)
+        self.steps = np.zeros(runs, dtype=np.int64)
         self._episodes = 0
 
     def count(self, trainer: Training) -> None:
@@ -77,12 +70,12 @@ class SpendingCount:
         No run is updated while it is evaluated, and an evaluation takes a tick at least.
         """
         for episode in trainer.episode_rows[self._episodes :]:
-            self._steps[episode.trial] += episode.steps
+            self.steps[episode.trial] += episode.steps
         self._episodes = len(trainer.episode_rows)
         if len(trainer.evaluation_rows) > len(self.at):
             updates = trainer.agent.updates_by_run
             for row in trainer.evaluation_rows[len(self.at) :]:
-                self.at.append((int(self._steps[row.trial]), int(updates[row.trial])))
+                self.at.append((int(self.steps[row.trial]), int(updates[row.trial])))
 
     def state(self) -> Arrays:
         """Return what a checkpoint keeps."""
@@ -91,7 +84,7 @@ class SpendingCount:
     def load(self, state: Mapping[str, NDArray[Any]], trainer: Training) -> None:
         """Go on from what ``state`` returned, beside the trainer as it was then."""
         self.at = [(steps, updates) for steps, updates in state["at"].tolist()]
-        self._steps[:] = 0
+        self.steps[:] = 0
         self._episodes = 0
         self.count(trainer)
 
@@ -186,9 +179,6 @@ class JobTraining:
         evaluations: list[list[Evaluated]] = [[] for _ in range(runs)]
         for row, spent in zip(self.trainer.evaluation_rows, self._spent.at, strict=True):
             evaluations[row.trial].append(evaluated(row, self.job.scenarios[row.trial], spent))
-        steps = np.zeros(runs, dtype=np.int64)
-        for trained in self.trainer.episode_rows:
-            steps[trained.trial] += trained.steps
         updates = agent.updates_by_run
         held = None if self.job.preset.imagination else agent.replay_bytes
         return JobOutcome(
@@ -201,7 +191,7 @@ class JobTraining:
                     evaluations=evaluations[run],
                     score=float(self.trainer.policy_scores[run]),
                     updates=int(updates[run]),
-                    env_steps=int(steps[run]),
+                    env_steps=int(self._spent.steps[run]),
                     replay_bytes=None if held is None else int(held[run]),
                 )
                 for run in range(runs)

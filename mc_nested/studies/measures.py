@@ -68,8 +68,7 @@ class Curve:
         return self.scores[:, late].std(axis=1, ddof=1) if late.sum() > 1 else np.empty(0)
 
     def _late(self) -> Bools:
-        is_late: Bools = 3 * self.episodes > 2 * self.trained
-        return is_late
+        return 3 * self.episodes > 2 * self.trained
 
 
 def curve_of(trials: Sequence[Trial]) -> Curve:

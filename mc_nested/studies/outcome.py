@@ -38,12 +38,7 @@ def evaluated(row: EvaluationRow, scenario: Scenario, spent: tuple[int, int] | N
     material = GreedyEpisode([row.material]).material_name(scenario)
     steps, updates = spent or (None, None)
     return Evaluated(
-        episode=row.episode,
-        score=row.score,
-        material=material,
-        steps=row.steps,
-        trained_steps=steps,
-        updates=updates,
+        episode=row.episode, score=row.score, material=material, steps=row.steps, trained_steps=steps, updates=updates
     )
 
 

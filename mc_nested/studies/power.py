@@ -48,8 +48,7 @@ class MeanEffect:
         distances = distance / (self.spread / np.sqrt(trials))
         found = stats.nct.sf(stats.t.ppf(1 - alpha, trials - 1), trials - 1, distances)
         # So far out that the power is 0 or 1, scipy's noncentral t isn't finite.
-        power: Float64s = np.where(is_possible, np.where(np.isfinite(found), found, distance > 0), 0.0)
-        return power
+        return np.where(is_possible, np.where(np.isfinite(found), found, distance > 0), 0.0)
 
 
 @dataclass(frozen=True)

@@ -90,12 +90,13 @@ def played_by(trials: Sequence[Trial]) -> Float64s:
 def measures_of(trials: PlayedDesigns) -> Measures:
     """Return the figures of one design or more."""
     played = trials.played
+    means = [interquartile_mean(played[drawn]) for drawn in resamples(trials)]
     return Measures(
         trials=played.size,
         solved=int(np.isfinite(played).sum()),
         median=float(np.median(played)),
         mean=interquartile_mean(played),
-        interval=_interval([interquartile_mean(played[drawn]) for drawn in resamples(trials)]),
+        interval=percentiles(means) if means else None,
         within_twice=float((played <= 2 * trials.without_a_prior[:, None]).mean()),
         worst=float(played.max()),
         without_a_prior=float(np.median(trials.without_a_prior)),
@@ -112,8 +113,7 @@ def interquartile_mean(played: Float64s) -> float:
 def profile(played: Float64s, episodes: Int64s) -> Float64s:
     """Return the share of all trials that were at the optimum within each of those numbers of episodes."""
     ordered = np.sort(played, axis=None)
-    shares: Float64s = np.searchsorted(ordered, episodes, side="right") / len(ordered)
-    return shares
+    return np.searchsorted(ordered, episodes, side="right") / len(ordered)
 
 
 def profile_band(trials: PlayedDesigns, episodes: Int64s) -> tuple[Float64s, Float64s] | None:
@@ -139,7 +139,3 @@ def resamples(trials: PlayedDesigns) -> Iterator[tuple[Int64s, Int64s]]:
     for _ in range(RESAMPLES):
         rows = np.concatenate([stratum[random.integers(len(stratum), size=len(stratum))] for stratum in strata])
         yield rows[:, None], random.integers(runs, size=(designs, runs))
-
-
-def _interval(drawn: Sequence[float]) -> Interval | None:
-    return percentiles(drawn) if drawn else None

@@ -20,7 +20,7 @@ from mc_nested.arena.single import SingleAgentVectorEnv
 from mc_nested.arrays import Int64s
 from mc_nested.errors import PresetError, RunError
 from mc_nested.learn.episode_log import EvaluationRow
-from mc_nested.learn.exploration.schedules import LinearDecay
+from mc_nested.learn.exploration.schedules import epsilon_after
 from mc_nested.learn.preset import Preset
 from mc_nested.learn.runs.checkpoint import fingerprint
 from mc_nested.studies.arm import LIBRARY
@@ -168,7 +168,7 @@ class Sb3Training:
         seed = int(np.random.SeedSequence(job.seed, spawn_key=(run,)).generate_state(1)[0])
         capacity = min(preset.replay_capacity, preset.episodes * scenario.step_limit)
         self._model = model(self._env, preset, capacity, seed)
-        self._decay = LinearDecay(explore.start, explore.floor, explore.share)
+        self._explore = explore
         self._steps = 0
 
     @property
@@ -188,7 +188,7 @@ class Sb3Training:
     def tick(self) -> None:
         """Play one training episode, and a greedy one if it is due."""
         done, preset = self._env.episodes, self.job.preset
-        epsilon = float(self._decay.epsilon(np.array([done]), preset.episodes)[0])
+        epsilon = float(epsilon_after(np.array([done]), preset.episodes, self._explore)[0])
         while self._env.episodes == done:
             self._model.learn_a_step(epsilon)
             self._steps += 1

@@ -6,7 +6,7 @@ from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 from queue import Empty, SimpleQueue
-from typing import Protocol
+from typing import Protocol, TypeVar
 
 from mc_nested.errors import RunError
 from mc_nested.studies.job import Job
@@ -75,7 +75,7 @@ def train_jobs(
         if not stopping and (is_stopped() or found.failed or found.lost):
             stopping = True
             executor.stop()
-        arrived = _arrived(done)
+        arrived = come_to(done, LOOK_EVERY_S)
         waiting -= len(arrived)
         for report in executor.reports():
             watch(report)
@@ -89,14 +89,17 @@ def train_jobs(
         raise RunError(found.lost)
 
 
-def _arrived(done: "SimpleQueue[Future[JobEnded]]") -> list[Future[JobEnded]]:
-    """Return the jobs that have ended since the last call; wait a moment for the first.
+Item = TypeVar("Item")
 
-    It takes no longer for ten thousand jobs than for one.
+
+def come_to(queue: "SimpleQueue[Item]", timeout_s: float) -> list[Item]:
+    """Return what has come to the queue since the last call; wait so long for the first.
+
+    It takes no longer for ten thousand than for one.
     """
     with suppress(Empty):
-        first = done.get(timeout=LOOK_EVERY_S)
-        return [first, *(done.get() for _ in range(done.qsize()))]
+        first = queue.get(timeout=timeout_s)
+        return [first, *(queue.get() for _ in range(queue.qsize()))]
     return []
 
 

@@ -15,7 +15,6 @@ from multiprocessing.connection import Connection
 from pathlib import Path
 from queue import SimpleQueue
 from threading import Lock
-from types import FrameType
 
 from mc_nested.errors import RunError
 from mc_nested.studies.job import Job
@@ -28,33 +27,23 @@ REPORT_EVERY_S = 0.25
 
 def serve_jobs(pipe: Connection) -> None:
     """Receive jobs and their folders, one by one, until None or the pipe's end: the process's main function."""
-    stop = _StopSignal()
+    stops: list[int] = []
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl+C reaches every process of a terminal: it is the parent's
+    signal.signal(signal.SIGTERM, lambda number, _: stops.append(number))
 
     def report(now: JobReport) -> bool:
         try:
             pipe.send(now)
-            return not (pipe.poll() or stop.came)
+            return not (pipe.poll() or stops)
         except (EOFError, ConnectionError):
             return False
 
     try:
-        while (task := pipe.recv()) is not None and not stop.came:
+        while (task := pipe.recv()) is not None and not stops:
             job, folder = task
             pipe.send(train_job(job, folder, report, REPORT_EVERY_S))
     except (EOFError, ConnectionError):
         return  # the parent was killed; the job is saved
-
-
-class _StopSignal:
-    """Ctrl+C reaches every process of a terminal and is left to the parent; SIGTERM is meant for this process."""
-
-    def __init__(self) -> None:
-        self.came = False
-        signal.signal(signal.SIGINT, signal.SIG_IGN)
-        signal.signal(signal.SIGTERM, self._take_note)
-
-    def _take_note(self, _number: int, _frame: FrameType | None) -> None:
-        self.came = True
 
 
 PATIENCE_S = 10.0

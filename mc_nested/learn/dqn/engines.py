@@ -57,18 +57,9 @@ NUMBERS, SCREEN = "numbers", "screen"
 MLP, CNN, CPU = "mlp", "cnn", "cpu"
 
 
-class Computing(NamedTuple):
-    """What a preset says about what it sees, and what computes it."""
-
-    engine: str
-    device: str
-    network: str
-    states: str
-
-
-def misfit(computing: Computing, *, explores_by_place: bool, imagines: bool, encoding: str) -> str | None:
-    """Return what doesn't go together, one line; None if all does."""
-    engine, device, network, states = computing
+def misfit(choice: EngineChoice, states: str, *, explores_by_place: bool, imagines: bool, encoding: str) -> str | None:
+    """Return what in a preset doesn't go together with what computes it, one line; None if all does."""
+    engine, device, network, _ = choice
     compiled, numbers = engine == COMPILED, states == NUMBERS
     rules = {
         f'states "{states}" need engine "torch": the compiled engine takes numbers alone': compiled and not numbers,

@@ -40,7 +40,8 @@ class Priorities:
     def add(self, rows: Int64s, indices: Int64s) -> None:
         """Add a new transition of each of the named runs (k,), at its index in the replay (k,)."""
         while indices.max(initial=0) >= self.room:
-            self._grow()
+            leaves = self._tree[:, self.room :]
+            self._tree = _tree_over(np.concatenate((leaves, np.zeros_like(leaves)), axis=1))
         self._put(rows[:, None], indices[:, None], self._highest[rows, None])
 
     def sample(self, rows: Int64s, numbers: Float64s, replaced: Int64s | None = None) -> Int64s:
@@ -93,10 +94,6 @@ class Priorities:
         while node[0, 0] > 1:
             node = node // 2
             self._tree[across, node] = self._tree[across, 2 * node] + self._tree[across, 2 * node + 1]
-
-    def _grow(self) -> None:
-        leaves = self._tree[:, self.room :]
-        self._tree = _tree_over(np.concatenate((leaves, np.zeros_like(leaves)), axis=1))
 
 
 def _tree_over(leaves: Float64s) -> Float64s:

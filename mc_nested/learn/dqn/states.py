@@ -103,11 +103,6 @@ class StateSpace:
         self.inputs = self.parts.cells.shape[1] + self.parts.rest.shape[1] - 1
         self._first = kind_of.reshape(-1) * self.count
 
-    def index(self, states: Integers) -> Int64s:
-        """Return the index (…) of each state (…, width)."""
-        indices: Int64s = states @ self.strides
-        return indices
-
     @property
     def highest(self) -> int:
         """The highest index that a replay keeps: of no state, the first beyond them."""
@@ -120,7 +115,8 @@ class StateSpace:
 
     def encoded(self, states: Integers) -> Int64s:
         """Return the index (…) of each state (…, width), which is all that a replay keeps of it."""
-        return self.index(states)
+        indices: Int64s = states @ self.strides
+        return indices
 
     def network(self, hidden: Sequence[int]) -> tuple[int, ...]:
         """Return the widths of a network for these states and actions."""

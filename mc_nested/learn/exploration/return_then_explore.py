@@ -97,7 +97,7 @@ class ReturnThenExplore:
         done = len(self._walk)
         if self._following is not None and not self._is_where_it_leads(self._following, x, y):
             self._stop_following(done)
-        if self._may_rejoin(done):
+        if self._following is None and self._clean and self._leave_at < done <= self._wander_until:
             later = enumerate(self.best[self._leave_at :], self._leave_at)
             here = [i for i, step in later if (step.x, step.y, step.part) == (x, y, part)]
             if here and rejoins < self._rule.rejoin:
@@ -154,9 +154,6 @@ class ReturnThenExplore:
         clean, self._leave_at, self._wander_until, following = (int(value) for value in state["plan"])
         self._clean, self._following = bool(clean), None if following < 0 else following
         self.best, self._walk = (rows_of_table(state[name], EpisodeStep) for name in ("best", "walk"))
-
-    def _may_rejoin(self, done: int) -> bool:
-        return self._following is None and self._clean and self._leave_at < done <= self._wander_until
 
     def _is_where_it_leads(self, index: int, x: int, y: int) -> bool:
         """Return whether the last step, if it was the best episode's step before ``index``, did the same as there.
@@ -244,7 +241,7 @@ class Excursions(Practice):
         before, states, next_states = step.observations[runs], step.states[runs], next_states[runs]
         actions, rewards, terminated = step.actions[runs], step.rewards[runs], step.terminated[runs]
         rows = self._agent.low_level_rows(runs, step.materials)
-        indices, next_indices = self._space.index(states), self._space.index(next_states)
+        indices, next_indices = self._space.encoded(states), self._space.encoded(next_states)
         used = before[:, BLOCKS_LEFT] > next_states[:, BLOCKS_LEFT]
         parts = np.array([self._part_at[run][left] for run, left in zip(runs, before[:, BLOCKS_LEFT], strict=True)])
         columns = (before[:, X], before[:, Y], indices, actions, rewards, next_indices, terminated, used, parts, rows)

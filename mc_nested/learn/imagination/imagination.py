@@ -171,14 +171,10 @@ class Imagination:
             most_updates, most_table_steps = self._rule.updates_building, self._rule.table_steps_building
         if not len(seen.steps):
             most_updates = most_table_steps = 0
-        return self._practice.session(
-            self._row(run, material),
-            arena,
-            Goal((x, y), blocks, here.step_limit, aim, most_updates, most_table_steps, anew),
-            self._appended(material),
-            self._real_transitions(run, material, landed_cells(seen.steps, rules.lands, arena)),
-            self.stream(run, number),
-        )
+        goal = Goal((x, y), blocks, here.step_limit, aim, most_updates, most_table_steps, anew)
+        real = self._real_transitions(run, material, landed_cells(seen.steps, rules.lands, arena))
+        row, others = self._row(run, material), self._appended(material)
+        return self._practice.session(row, arena, goal, others, real, self.stream(run, number))
 
     def begin(self, runs: Int64s) -> None:
         """Begin an episode in each of the named runs."""
@@ -214,14 +210,8 @@ class Imagination:
 
     def first_tries(self, run: int) -> FirstTries:
         """Return what that run has tried of its actions; its arrays are the run's own."""
-        return FirstTries(
-            bool(self._explores[run]),
-            bool(self._falls_short[run]),
-            self._experience[run].is_stuck,
-            self._untried[run],
-            self._unclear[run],
-            self._tries[run],
-        )
+        is_so = bool(self._explores[run]), bool(self._falls_short[run]), self._experience[run].is_stuck
+        return FirstTries(*is_so, self._untried[run], self._unclear[run], self._tries[run])
 
     def probes(self, run: int, material: int) -> frozenset[Cell]:
         """Return the unknown cells where that run's policy should place blocks next, with that material."""
@@ -263,9 +253,9 @@ class Imagination:
     def state(self) -> Arrays:
         """Return everything that later steps depend on, by name."""
         every = (named_for(str(run), seen.state()) for run, seen in enumerate(self._experience))
-        first_tries = {"explores": self._explores, "falls_short": self._falls_short}
         return {
-            **first_tries,
+            "explores": self._explores,
+            "falls_short": self._falls_short,
             "untried": self._untried,
             "unclear": self._unclear,
             "tries": self._tries,
@@ -300,13 +290,6 @@ class Imagination:
         if self._rows_a_run > 1:
             own &= steps[:, 8] == material
         steps, landed = steps[own], landed[own]
-        appended = len(self._space.strides) - 3
-        last = np.repeat(steps[:, 8:], appended, axis=1)
-        index = self._space.index
-        return RealTransitions(
-            index(np.hstack((steps[:, 0:3], last))),
-            index(np.hstack((steps[:, 4:7], last))),
-            steps[:, 3],
-            landed,
-            steps[:, 6] == 0,
-        )
+        last = np.repeat(steps[:, 8:], len(self._space.strides) - 3, axis=1)
+        before, after = (self._space.encoded(np.hstack((seen, last))) for seen in (steps[:, 0:3], steps[:, 4:7]))
+        return RealTransitions(before, after, steps[:, 3], landed, steps[:, 6] == 0)

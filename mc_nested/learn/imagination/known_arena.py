@@ -3,6 +3,8 @@
 from dataclasses import dataclass
 from typing import NamedTuple
 
+import numpy as np
+
 from mc_nested.arena.action import Cell
 from mc_nested.arrays import Int8s, Int64s
 from mc_nested.learn.imagination.beliefs import Belief, Beliefs
@@ -49,7 +51,7 @@ class KnownArena:
 
 def known_arena(experience: Experience, lands: Cell, beliefs: Beliefs) -> KnownArena:
     """Return what that experience shows if blocks land at ``lands`` from the agent, and the beliefs that follow."""
-    all_episodes = _by_episode(experience.steps, experience.first_of_episode)
+    all_episodes = np.split(experience.steps, experience.first_of_episode[1:])
     own = min(experience.episodes, len(all_episodes))
     earlier, remembered = all_episodes[: len(all_episodes) - own], all_episodes[len(all_episodes) - own :]
     tried: dict[Cell, bool] = {}
@@ -59,11 +61,6 @@ def known_arena(experience: Experience, lands: Cell, beliefs: Beliefs) -> KnownA
     episodes = tuple(_blocks_of(first + at, steps, lands, tried) for at, steps in enumerate(remembered))
     last = frozenset(cell for cell, _ in _landings(remembered[-1], lands)) if remembered else frozenset[Cell]()
     return KnownArena(beliefs.cells, last, episodes, beliefs.explores)
-
-
-def _by_episode(steps: Int64s, first_of_episode: Int64s) -> list[Int64s]:
-    ends = [*first_of_episode[1:].tolist(), len(steps)]
-    return [steps[first:end] for first, end in zip(first_of_episode.tolist(), ends, strict=False)]
 
 
 def _landings(steps: Int64s, lands: Cell) -> list[tuple[Cell, int]]:

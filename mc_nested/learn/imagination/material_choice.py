@@ -39,8 +39,7 @@ def scores_of_materials(
     best = float(np.nanmax(beside)) if np.isfinite(beside).any() else 0.0
     untried = np.full(materials, best + blocks)
     untried[list(elsewhere)] = best - blocks
-    scores: Float64s = most + np.where(np.isfinite(beside), beside, untried)
-    return scores
+    return most + np.where(np.isfinite(beside), beside, untried)
 
 
 def learn_choice(main: Learner, row: int, start: Int64s, scores: Float64s) -> None:

@@ -13,14 +13,7 @@ from mc_nested.learn.dqn.compiled_engine.engine import compiled_engine
 from mc_nested.learn.dqn.compiled_engine.networks import initial_parameters, parameter_count
 from mc_nested.learn.dqn.states import numbered
 from mc_nested.learn.imagination.arena_step import NOWHERE, ImaginedArena, ImaginedTask, index_of
-from mc_nested.learn.imagination.practice_kernel import (
-    PracticeReplay,
-    PracticeRule,
-    Progress,
-    Row,
-    Workspace,
-    practise,
-)
+from mc_nested.learn.imagination.practice_kernel import PracticeReplay, PracticeRule, Progress, Row, Workspace, practise
 from mc_nested.learn.imagination.table_learner import QTables, empty_tables, empty_trail, longest_episode
 from mc_nested.learn.imagination.table_practice import TablePractice
 from mc_nested.learn.learner import Learner
@@ -159,18 +152,9 @@ class NetworkPractice:
     def __init__(self, learner: Learner, preset: Preset, rule: ImaginationRule) -> None:
         self._engine, self._space = compiled_engine(learner.engine), numbered(learner.states)
         update = preset.update
-        self._rule = PracticeRule(
-            update.gamma,
-            update.learning_rate,
-            update.target_period,
-            update.huber_delta,
-            update.learning_starts,
-            rule.highest_epsilon,
-            rule.lowest_epsilon,
-            rule.double,
-            rule.n_steps,
-            BY_TABLE,
-        )
+        own = update.gamma, update.learning_rate, update.target_period, update.huber_delta, update.learning_starts
+        epsilons = rule.highest_epsilon, rule.lowest_epsilon
+        self._rule = PracticeRule(*own, *epsilons, rule.double, rule.n_steps, BY_TABLE)
         self._batch = update.batch
         self._replay = PracticeReplay(
             states=np.zeros(CAPACITY, np.int32),
@@ -204,7 +188,10 @@ class NetworkPractice:
             rule = rule._replace(by_table=0.0)
 
         def begin() -> None:
-            self._begin_with(real)
+            count = min(len(real.states), CAPACITY)
+            for kept, given in zip(self._replay, real, strict=False):
+                kept[:count] = given[-CAPACITY:]
+            self._replay.added[0] = count
             work.seen_in[:] = -1
             if goal.anew:
                 own.online[:] = own.target[:] = initial_parameters(engine.sizes, random)
@@ -221,14 +208,7 @@ class NetworkPractice:
             engine.check_finite(row, parts.online)
 
         longest = max(2 + goal.step_limit * (2 + self._batch), longest_episode(task))
-        return PracticeSession(
-            own,
-            begin,
-            practise_on,
-            goal,
-            random,
-            max(NUMBERS_AT_ONCE, 2 * longest),
-        )
+        return PracticeSession(own, begin, practise_on, goal, random, max(NUMBERS_AT_ONCE, 2 * longest))
 
     def _tables_for(self, arena: ImaginedArena, step_limit: int) -> QTables:
         """Return this learner's tables, made anew if the arena has another number of cells than before."""
@@ -236,13 +216,6 @@ class NetworkPractice:
         if self._tables is None or len(self._tables.built.here) != cells:
             self._tables = empty_tables(space.count, space.actions, cells)
         return self._tables._replace(trail=empty_trail(step_limit), best=empty_trail(step_limit))
-
-    def _begin_with(self, real: RealTransitions) -> None:
-        kept = slice(-CAPACITY, None)
-        count = len(real.states[kept])
-        for own, given in zip(self._replay, real, strict=False):
-            own[:count] = given[kept]
-        self._replay.added[0] = count
 
     def _workspace(self, row: int) -> Workspace:
         sizes, space = self._engine.sizes, self._space
@@ -267,5 +240,4 @@ def landed_cells(steps: Int64s, lands: Cell, arena: ImaginedArena) -> Int64s:
     """
     used = steps[:, 2] > steps[:, 6]
     cells = np.array([index_of((x + lands[0], y + lands[1]), arena) for x, y in steps[:, 4:6].tolist()], dtype=np.int64)
-    landed: Int64s = np.where(used, cells, NOWHERE)
-    return landed
+    return np.where(used, cells, NOWHERE)

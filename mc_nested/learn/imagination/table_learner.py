@@ -27,14 +27,7 @@ from mc_nested.learn.imagination.arena_step import (
     state_at,
     step,
 )
-from mc_nested.learn.imagination.built_values import (
-    BuiltValues,
-    begin_values,
-    empty_values,
-    forget,
-    is_full,
-    row_of,
-)
+from mc_nested.learn.imagination.built_values import BuiltValues, begin_values, empty_values, forget, is_full, row_of
 
 AROUND = 8
 """The cells around a cell: whether each is built makes as many bits of its surroundings."""
@@ -96,16 +89,10 @@ def empty_trail(steps: int) -> Int64s:
 
 def empty_tables(states: int, actions: int, cells: int, steps: int = 0, room: int = ROOM) -> QTables:
     """Make tables for so many states of the agent, cells of the arena (border included), and steps; not yet begun."""
-    return QTables(
-        empty_values(room, actions, cells),
-        np.zeros((states, actions), np.float32),
-        np.zeros((cells << AROUND, actions), np.float32),
-        np.zeros(cells << AROUND, np.int8),
-        np.zeros(states, np.int64),
-        empty_trail(steps),
-        empty_trail(steps),
-        np.zeros(1, np.int64),
-    )
+    by_blocks, by_around = (np.zeros((count, actions), np.float32) for count in (states, cells << AROUND))
+    habits, seen_in = np.zeros(cells << AROUND, np.int8), np.zeros(states, np.int64)
+    trails = empty_trail(steps), empty_trail(steps), np.zeros(1, np.int64)
+    return QTables(empty_values(room, actions, cells), by_blocks, by_around, habits, seen_in, *trails)
 
 
 def begin_tables(tables: QTables, random: Generator) -> None:
@@ -121,8 +108,7 @@ def begin_tables(tables: QTables, random: Generator) -> None:
 @compiled(nogil=True)
 def longest_episode(task: ImaginedTask) -> int:
     """Return how many numbers an episode uses at most."""
-    longest: int = 3 + 2 * task.step_limit
-    return longest
+    return 3 + 2 * task.step_limit
 
 
 @compiled(nogil=True)

@@ -50,11 +50,9 @@ class Journalled(Protocol):
 
     def marks(self) -> Arrays:
         """Return the length of the journal now, for ``journal``."""
-        ...
 
     def journal(self, since: Mapping[str, NDArray[Any]] | None) -> Arrays:
         """Return what was added since those marks; everything if there are none."""
-        ...
 
     def load(self, state: Mapping[str, NDArray[Any]], journals: list[Arrays]) -> None: ...
 
@@ -69,10 +67,7 @@ class Checkpoint:
     """
 
     def __init__(
-        self,
-        folder: Path,
-        identity: Mapping[str, Any],
-        remedy: str = "bring back a whole copy, or train the run again",
+        self, folder: Path, identity: Mapping[str, Any], remedy: str = "bring back a whole copy, or train the run again"
     ) -> None:
         self._folder = folder
         self._remedy = remedy

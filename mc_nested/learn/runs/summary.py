@@ -15,12 +15,14 @@ def summarise(config: RunConfig, scenario: Scenario, trainer: Training, wall_s: 
     """
     evaluations = [[row for row in trainer.evaluation_rows if row.trial == trial] for trial in range(config.trials)]
     firsts = [next((row.episode for row in rows if row.score >= scenario.optimum), None) for rows in evaluations]
+    team = config.team
+    builders = {"builders": len(team.starts), "networks_kind": team.networks, "starts": team.starts} if team else {}
     return {
         "scenario": scenario.name,
         "agent": config.agent,
         "preset": config.preset_name,
         "backend": config.backend,
-        **_team_of(config),
+        **builders,
         "trials": config.trials,
         "seed": config.seed,
         "episodes": config.preset.episodes,
@@ -38,17 +40,6 @@ def summarise(config: RunConfig, scenario: Scenario, trainer: Training, wall_s: 
         "wall_s": round(wall_s, 3),
         "networks": trainer.agent.networks,
         "parameters": trainer.agent.parameters,
-    }
-
-
-def _team_of(config: RunConfig) -> dict[str, Any]:
-    """Return what a summary says of several builders; nothing of one agent alone."""
-    if config.team is None:
-        return {}
-    return {
-        "builders": len(config.team.starts),
-        "networks_kind": config.team.networks,
-        "starts": config.team.starts,
     }
 
 

@@ -45,11 +45,7 @@ SOLVED = (
     "half, so a trial is more likely than not to get there. Does not hold: it is below."
 )
 
-MEASURED = {
-    EARLY: "early",
-    FINAL: "at the end",
-    LAST_TEN: "at the end, by the mean of the last ten evaluations",
-}
+MEASURED = {EARLY: "early", FINAL: "at the end", LAST_TEN: "at the end, by the mean of the last ten evaluations"}
 
 
 def ahead_on_the_line(curves: Curves) -> list[Claim]:

@@ -24,7 +24,6 @@ from mc_nested.workers.cluster.job_task import (
     cancel,
     in_words,
     landed_from,
-    lost,
     packed,
     stop_training,
     train_on_worker,
@@ -174,7 +173,9 @@ class DaskJobs:
             if tries and not self._stopping:
                 self._try_again(job, folder, landed, tries)
             else:
-                landed.set_exception(lost(job, (MOST_TRIES - tries) * (error.allowed_failures + 1)))
+                workers = (MOST_TRIES - tries) * (error.allowed_failures + 1)
+                why = "if nobody stopped them, it needs more memory than they have"
+                landed.set_exception(RunError(f"job {job.name} was lost with each of {workers} workers: {why}"))
         except Exception as error:
             landed.set_exception(in_words(job, error))
 

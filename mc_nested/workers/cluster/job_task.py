@@ -10,12 +10,13 @@ import sys
 import tempfile
 import time
 from collections.abc import Callable, Mapping
+from concurrent.futures import Future
 from pathlib import Path
 from threading import Lock
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from mc_nested.atomic_file import atomic_write
-from mc_nested.errors import ClusterError
+from mc_nested.errors import ClusterError, RunError, UserError
 from mc_nested.learn.runs.folder_lock import FILE as LOCK
 from mc_nested.report.tensorboard import FOLDER
 from mc_nested.studies.job import Job
@@ -27,9 +28,6 @@ from mc_nested.workers.train_job import train_job
 
 if TYPE_CHECKING:
     from distributed import Worker
-from concurrent.futures import Future
-
-from mc_nested.errors import RunError, UserError
 
 Files = Mapping[str, bytes]
 """Contents by path, relative to a folder, with slashes."""
@@ -143,7 +141,9 @@ def train_on_worker(versions: Versions, library: str | None, package: bytes, top
         return topic not in _stopped and is_wanted()
 
     with _one_at_a_time, tempfile.TemporaryDirectory(prefix="mc-nested-", dir=worker.local_directory) as root:
-        _use_one_thread()
+        os.environ.update(ONE_THREAD_EACH)  # as the processes of this computer do: another number might round otherwise
+        if torch := sys.modules.get("torch"):  # it has read the environment already
+            torch.set_num_threads(1)
         folder = Path(root) / JOBS / job.name
         write_below(folder, files)
         ended = train_job(job, folder, report, REPORT_EVERY_S)
@@ -166,16 +166,6 @@ def wanted_here(worker: "Worker") -> Callable[[], bool]:
     return is_wanted
 
 
-def _use_one_thread() -> None:
-    """Let torch compute with one thread, as the processes of this computer do: another number might round otherwise."""
-    os.environ.update(ONE_THREAD_EACH)
-    if torch := sys.modules.get("torch"):  # it has read the environment already
-        torch.set_num_threads(1)
-
-
-WHY_LOST = "if nobody stopped them, it needs more memory than they have"
-
-
 def landed_from(trained: Trained, folder: Path) -> JobEnded:
     """Put what a worker sent into the job's folder: how the job ended. RunError if the disk refuses."""
     try:
@@ -191,11 +181,6 @@ def cancel(future: Future[JobEnded]) -> None:
     """Let whoever waits for it know that it was cancelled."""
     future.cancel()
     future.set_running_or_notify_cancel()
-
-
-def lost(job: Job, workers: int) -> RunError:
-    """Return the end of a job that was lost with each of so many workers, and is given up."""
-    return RunError(f"job {job.name} was lost with each of {workers} workers: {WHY_LOST}")
 
 
 def in_words(job: Job, error: Exception) -> RunError:

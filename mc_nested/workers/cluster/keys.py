@@ -87,10 +87,7 @@ def _new_key() -> "EllipticCurvePrivateKey":
 
 
 def _signed(
-    name: str,
-    own: "EllipticCurvePrivateKey",
-    authority: "Certificate | None",
-    key: "EllipticCurvePrivateKey",
+    name: str, own: "EllipticCurvePrivateKey", authority: "Certificate | None", key: "EllipticCurvePrivateKey"
 ) -> "Certificate":
     """Return a certificate for ``own``, signed with ``key``; an authority's if it signs itself."""
     from cryptography import x509

@@ -6,22 +6,21 @@ import uuid
 from concurrent.futures import Future
 from contextlib import suppress
 from dataclasses import dataclass
-from queue import Empty, SimpleQueue
+from queue import SimpleQueue
 from typing import TYPE_CHECKING, Any
 
 from mc_nested.errors import ClusterError
 from mc_nested.learn.games.episode import EpisodePlan
+from mc_nested.workers.cluster.dask_jobs import ALL
 from mc_nested.workers.cluster.job_task import GAME
 from mc_nested.workers.cluster.versions import own_versions
+from mc_nested.workers.executor import come_to
 from mc_nested.workers.games.game_worker import NAMES
 from mc_nested.workers.games.mailbox import ask_game, packed
 from mc_nested.workers.games.messages import GameAnswer, GameSetup
 
 if TYPE_CHECKING:  # the cluster extra's
     from distributed import Client
-
-ALL = "all"
-"""The topic under which a scheduler tells who comes and goes."""
 
 LOOK_EVERY_S = 2.0
 """Seconds between two looks at who is there, where the scheduler doesn't tell."""
@@ -145,7 +144,7 @@ class DaskGames:
 
         ClusterError if the scheduler is lost for good.
         """
-        heard = self._heard(timeout_s)
+        heard = come_to(self._happened, timeout_s)
         answers = [each for each in heard if isinstance(each, Done) and self._asked.get(each.game) is each.future]
         # Answers come first: they were played and confirmed, whatever has become of the game or the scheduler since.
         found: list[GameEvent] = [NameTaken(each.game) for each in heard if isinstance(each, NameTaken)]
@@ -163,13 +162,6 @@ class DaskGames:
         self._was_away = self._was_away or bool(withdrawn) or self._client.status != "running"
         found = [self._forget(each.game) for each in withdrawn]
         return found or self._unreachable() or self._comings_and_goings(is_heard=None in heard)
-
-    def _heard(self, timeout_s: float) -> list["Done | NameTaken | None"]:
-        try:
-            first = self._happened.get(timeout=timeout_s)
-        except Empty:
-            return []
-        return [first, *(self._happened.get_nowait() for _ in range(self._happened.qsize()))]
 
     def _comings_and_goings(self, *, is_heard: bool) -> list[GameEvent]:
         """Return who has come and gone, if that was heard of, or wasn't looked at for a while."""
@@ -217,7 +209,7 @@ class DaskGames:
             self._answered_at[game] = None
         return [Unreachable(game, self._addresses[game]) for game in late]
 
-    def _answered(self, done: "Done") -> Answered:
+    def _answered(self, done: Done) -> Answered:
         del self._asked[done.game]
         self._answered_at.pop(done.game, None)
         error = done.future.exception()

@@ -55,10 +55,7 @@ class GameServer:
     """
 
     def __init__(self, mailbox: Mailbox, opens: Opener, say: Say, is_over: Callable[[], bool]) -> None:
-        self._mailbox = mailbox
-        self._opens = opens
-        self._say = say
-        self._is_over = is_over
+        self._mailbox, self._opens, self._say, self._is_over = mailbox, opens, say, is_over
         self._setup: GameSetup | None = None
         self._stack = ExitStack()
         self._failures = FailureBudget()

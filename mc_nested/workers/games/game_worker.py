@@ -55,9 +55,7 @@ class GameWorker:
     """
 
     def __init__(self, address: SchedulerAddress, name: str, say: Callable[[str], None]) -> None:
-        self._address = address
-        self._name = name
-        self._say = say
+        self._address, self._name, self._say = address, name, say
         self._serving: Any = None
 
     def __enter__(self) -> "GameWorker":

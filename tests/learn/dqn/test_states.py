@@ -12,7 +12,7 @@ from mc_nested.learn.dqn.states import StateSpace, one_hot, scaled
 def test_every_state_has_a_distinct_index(highest: list[int], data: st.DataObject) -> None:
     space = StateSpace(np.array([highest]), actions=2)
     states = [np.array([data.draw(st.integers(0, top)) for top in highest]) for _ in range(2)]
-    one, other = (int(space.index(state)) for state in states)
+    one, other = (int(space.encoded(state)) for state in states)
     assert (one == other) == (states[0].tolist() == states[1].tolist())
     assert 0 <= min(one, other) <= max(one, other) < space.count == np.prod(np.array(highest) + 1)
 
@@ -35,7 +35,7 @@ def test_three_materials_are_scaled_to_minus_1_0_and_1() -> None:
 def test_each_row_is_scaled_by_its_own_scenario(rows: list[int]) -> None:
     blocks = np.array([11, 16])
     space = StateSpace(np.array([[14, 14, 11], [14, 14, 16]]), actions=8)
-    states = space.index(np.array([[0, 14, blocks[row]] for row in rows]))
+    states = space.encoded(np.array([[0, 14, blocks[row]] for row in rows]))
     features = space.table[states + space.first_of(np.array(rows))]
     assert features.tolist() == [[-1.0, 1.0, 1.0, 1.0]] * len(rows)
     for row, state in zip(rows, states, strict=True):
@@ -49,7 +49,7 @@ def test_one_hot_gives_each_value_a_separate_input() -> None:
 def test_one_hot_inputs_suffice_for_the_largest_of_several_scenarios() -> None:
     space = StateSpace(np.array([[14, 14, 11], [14, 14, 16]]), actions=8, encoding="one-hot")
     assert space.inputs == 15 + 15 + 17
-    state = space.index(np.array([14, 0, 11]))
+    state = space.encoded(np.array([14, 0, 11]))
     for row in (0, 1):
         assert np.flatnonzero(space.features_of(row)[state]).tolist() == [14, 15, 30 + 11, 47]
 
@@ -57,7 +57,7 @@ def test_one_hot_inputs_suffice_for_the_largest_of_several_scenarios() -> None:
 def test_the_cell_encoding_has_an_input_for_each_cell_and_each_value_of_the_other_integers() -> None:
     space = StateSpace(np.array([[1, 2, 4, 1]]), actions=8, encoding="cell")
     # (x, y) = (1, 0) is the fourth of six cells; then b = 3 of five values, a_M = 0 of two, and the 1.
-    state = space.index(np.array([1, 0, 3, 0]))
+    state = space.encoded(np.array([1, 0, 3, 0]))
     assert space.features_of(0)[state].tolist() == [0, 0, 0, 1, 0, 0, *[0, 0, 0, 1, 0], *[1, 0], 1]
 
 
@@ -83,11 +83,11 @@ def test_a_states_index_combines_its_cell_and_the_rest_of_the_state() -> None:
     assert space.inputs == 4 * 3 + 5 + 2
     assert space.strides.tolist() == [3 * 5 * 2, 5 * 2, 2, 1]
     state = np.array([2, 1, 3, 1])
-    assert int(space.index(state)) == int(state @ space.strides)
-    cell, rest = divmod(int(space.index(state)), space.count // space.cells)
+    assert int(space.encoded(state)) == int(state @ space.strides)
+    cell, rest = divmod(int(space.encoded(state)), space.count // space.cells)
     assert (cell, rest) == (2 * 3 + 1, 3 * 2 + 1)
     features = space.features_of(0)
-    assert np.flatnonzero(features[space.index(state), : space.cells]).tolist() == [cell]
+    assert np.flatnonzero(features[space.encoded(state), : space.cells]).tolist() == [cell]
     # What follows the cell is the same for every cell: by the rest of the index.
     tails = features[:, space.cells :].reshape(space.cells, -1, 5 + 2 + 1)
     assert (tails == tails[0]).all()
@@ -103,6 +103,6 @@ def test_every_encoding_tells_all_states_apart(encoding: str) -> None:
 def test_cell_inputs_suffice_for_the_largest_of_several_scenarios() -> None:
     space = StateSpace(np.array([[4, 4, 3], [6, 6, 5]]), actions=8, encoding="cell")
     assert space.inputs == 7 * 7 + 6
-    state = space.index(np.array([4, 4, 3]))
+    state = space.encoded(np.array([4, 4, 3]))
     for row in (0, 1):
         assert np.flatnonzero(space.features_of(row)[state]).tolist() == [4 * 7 + 4, 49 + 3, 49 + 6]

@@ -71,10 +71,7 @@ class CompiledEngine:
     """
 
     def __init__(self, space: StateSpace, sizes: Sizes, rule: UpdateRule, online: Float32s) -> None:
-        self.space = space
-        self.sizes = sizes
-        self.rule = rule
-        self.online = online
+        self.space, self.sizes, self.rule, self.online = space, sizes, rule, online
         self.target = online.copy()
         self.updates: Int64s = np.zeros(len(online), dtype=np.int64)
         self._first_moment, self._second_moment = np.zeros_like(online), np.zeros_like(online)
@@ -109,16 +106,9 @@ class CompiledEngine:
     def update(self, rows: Int64s, batch: Batch) -> Float32s:
         if batch.actions.shape != (len(rows), self.rule.batch):
             raise ValueError(f"batches of {batch.actions.shape}, not {(len(rows), self.rule.batch)}")
-        finite, renews = _update_rows(
-            rows,
-            self._networks,
-            tuple(batch),
-            (self._parts, self.space.first_of(rows), self._target_values.values, self.target),
-            self._widths,
-            tuple(self.rule),
-            self._learning,
-            self._estimates,
-        )
+        states = self._parts, self.space.first_of(rows), self._target_values.values, self.target
+        how = self._widths, tuple(self.rule), self._learning, self._estimates
+        finite, renews = _update_rows(rows, self._networks, tuple(batch), states, *how)
         if not finite:
             raise diverged(self.rule, self.updates[rows])
         if renews:
@@ -233,42 +223,21 @@ def _value(
 @compiled()
 def _update_rows(
     rows: Int64s,
-    networks: tuple[Any, ...],
-    batch: tuple[Any, ...],
-    states: tuple[Any, ...],
+    of_networks: tuple[Any, ...],
+    of_batch: tuple[Any, ...],
+    of_states: tuple[Any, ...],
     sizes: Int64s,
-    rule: tuple[Any, ...],
-    work: tuple[Any, ...],
-    estimates: tuple[Any, ...],
+    of_rule: tuple[Any, ...],
+    of_work: tuple[Any, ...],
+    of_estimates: tuple[Any, ...],
 ) -> tuple[bool, bool]:
-    """Return ``_update`` of plain tuples: compiled code takes them over in a third of the time that named ones take."""
-    return _update(
-        rows,
-        _Networks(*networks),
-        Batch(*batch),
-        _StateTable(StateParts(*states[0]), states[1], states[2], states[3]),
-        sizes,
-        UpdateRule(*rule),
-        _Workspace(*work),
-        _Estimates(*estimates),
-    )
+    """Do ``CompiledEngine.update``, row by row. Compiled code takes plain tuples over in a third of named ones' time.
 
-
-@compiled()
-def _update(
-    rows: Int64s,
-    networks: _Networks,
-    batch: Batch,
-    states: _StateTable,
-    sizes: Int64s,
-    rule: UpdateRule,
-    work: _Workspace,
-    estimates: _Estimates,
-) -> tuple[bool, bool]:
-    """Return ``CompiledEngine.update``, row by row.
-
-    Returns whether all parameters are numbers afterwards, and whether any row's target is due.
+    Return whether all parameters are numbers afterwards, and whether any row's target is due.
     """
+    networks, batch, rule = _Networks(*of_networks), Batch(*of_batch), UpdateRule(*of_rule)
+    states = _StateTable(StateParts(*of_states[0]), of_states[1], of_states[2], of_states[3])
+    work, estimates = _Workspace(*of_work), _Estimates(*of_estimates)
     finite, renews = True, False
     count = batch.actions.shape[1]
     inputs = np.empty((sizes[0] + 1, count), np.float32)

@@ -189,5 +189,4 @@ def _enough_memory(device: torch.device) -> Iterator[None]:
 
 
 def _array(tensor: Tensor) -> Float32s:
-    array: Float32s = tensor.cpu().numpy()
-    return array
+    return tensor.cpu().numpy()

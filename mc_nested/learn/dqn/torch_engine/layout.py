@@ -72,5 +72,4 @@ def bind(module: nn.Module, row: Tensor) -> None:
 def flat_of(module: nn.Module) -> Float32s:
     """Return a module's parameters as one row (parameters,)."""
     slots, own = slots_of(module), dict(module.named_parameters())
-    flat: Float32s = laid_out([own[name] for slot in slots for name in slot.names], slots, 1)[0].detach().numpy()
-    return flat
+    return laid_out([own[name] for slot in slots for name in slot.names], slots, 1)[0].detach().numpy()

@@ -127,7 +127,7 @@ def test_each_row_scales_states_by_its_own_scenario() -> None:
     space = StateSpace(np.array([[14, 14, 11, 1], [14, 14, 16, 1]]), actions=8)
     same = initial_parameters(SIZES, np.random.default_rng(0))
     both = CompiledEngine(space, SIZES, RULE, np.stack([same, same]))
-    state = space.index(np.array([[7, 14, 11, 1]] * 2))
+    state = space.encoded(np.array([[7, 14, 11, 1]] * 2))
     values = both.q_values(state)
     assert not np.array_equal(values[0], values[1])
     scaled = torch.tensor([[0.0, 1.0, 2 * 11 / 16 - 1, 1.0]])
