@@ -8,6 +8,16 @@ from mc_nested.view.status import ReadingSeen
 from tests.view.shown import LIVE
 
 
+def test_where_the_time_of_actions_goes_stands_above_them_where_three_still_fit() -> None:
+    played = LIVE.model_copy(
+        update={"share": "walking 90 %, confirming 8 %, deciding 2 %", "learning": None, "reading": None}
+    )
+    played = played.model_copy(update={"actions": LIVE.actions[:1] * 4, "lines": ()})
+    heading, share, *actions = side_panel(played, 60, 5).plain.split("\n")
+    assert (heading, share, len(actions)) == ("last actions: time, where to, block", played.share, 3)
+    assert played.share not in side_panel(played, 60, 4).plain
+
+
 def test_the_side_panel_shows_everything_where_there_is_room() -> None:
     assert [line.rstrip() for line in side_panel(LIVE, 60, 21).plain.split("\n")] == [
         "12 of at most 41 episodes",
