@@ -2,7 +2,7 @@
 
 look: where the walker must be after that tick, and what it must look at -> a click or a key, in the middle of a gap
 
-The first thing that is not as planned ends it: every key goes up, and the body finds out what was done (Body.finish).
+The first thing that is not as planned ends it: every key goes up, and the body finds out what was done (Body.go_on).
 """
 
 import math
