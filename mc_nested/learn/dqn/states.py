@@ -1,4 +1,4 @@
-"""States: what a learner's rows see and do, as a replay keeps it. Numbered (StateSpace), or planes.
+"""States: what a learner's rows see and do, as a replay keeps it. Numbered (StateSpace), or planes of bytes or bits.
 
 A numbered state is a few small integers. All possible states are enumerated once: an index for each, and the features
 that a network takes for it. A replay then stores one index per state, and a batch is encoded by table lookups: what a
@@ -6,6 +6,7 @@ network takes for (x, y) is in one table, what it takes for the rest in another,
 an input for each cell.
 """
 
+import math
 from collections.abc import Sequence
 from functools import cached_property
 from typing import Any, NamedTuple, Protocol
@@ -58,6 +59,31 @@ class PlaneStates(NamedTuple):
 
     def encoded(self, states: NDArray[Any]) -> NDArray[Any]:
         return states
+
+
+class PackedPlanes(NamedTuple):
+    """Planes of bits, of which a byte keeps eight.
+
+    Args:
+        rows: how many rows there are.
+        actions: how many actions there are.
+        planes: (planes, height, width).
+    """
+
+    rows: int
+    actions: int
+    planes: tuple[int, ...]
+
+    @property
+    def highest(self) -> int:
+        return 255
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        return (-(-math.prod(self.planes) // 8),)
+
+    def encoded(self, states: NDArray[Any]) -> NDArray[Any]:
+        return np.packbits(states.reshape(*states.shape[: -len(self.planes)], -1), axis=-1)
 
 
 class StateParts(NamedTuple):

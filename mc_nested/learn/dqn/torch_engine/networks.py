@@ -5,6 +5,7 @@ from 0 to 1), and gives values (batch, actions).
 """
 
 import importlib
+import math
 import sys
 from collections.abc import Callable, Sequence
 from itertools import pairwise
@@ -21,7 +22,7 @@ from mc_nested.arrays import Float32s, Int64s
 from mc_nested.errors import PresetError
 from mc_nested.learn.dqn.compiled_engine.networks import Sizes, initial_parameters
 from mc_nested.learn.dqn.engine import NetworkForm
-from mc_nested.learn.dqn.states import States, StateSpace
+from mc_nested.learn.dqn.states import PackedPlanes, States, StateSpace
 from mc_nested.learn.dqn.torch_engine.layout import flat_of
 
 MLP, CNN = "mlp", "cnn"
@@ -159,14 +160,28 @@ Inputs = Callable[[NDArray[Any], Int64s], Tensor]
 
 def input_shape(states: States) -> tuple[int, ...]:
     """Return the shape of one state as a network takes it."""
-    return (states.inputs,) if isinstance(states, StateSpace) else states.shape
+    if isinstance(states, StateSpace):
+        return (states.inputs,)
+    return states.planes if isinstance(states, PackedPlanes) else states.shape
 
 
 def inputs_of(states: States, device: torch.device) -> Inputs:
     """Return what turns those states into a network's inputs on that device."""
     if isinstance(states, StateSpace):
         return _features(states, device)
+    if isinstance(states, PackedPlanes):
+        return _bits(states.planes, device)
     return lambda kept, _: torch.from_numpy(kept).to(device).float().mul_(1 / 255)
+
+
+def _bits(planes: tuple[int, ...], device: torch.device) -> Inputs:
+    places = torch.arange(7, -1, -1, dtype=torch.uint8, device=device)
+
+    def unpack(kept: NDArray[Any], _: Int64s) -> Tensor:
+        bits = torch.from_numpy(kept).to(device).unsqueeze(-1).bitwise_right_shift(places).bitwise_and_(1).flatten(-2)
+        return bits[..., : math.prod(planes)].reshape(*kept.shape[:-1], *planes).float()
+
+    return unpack
 
 
 def _features(space: StateSpace, device: torch.device) -> Inputs:

@@ -1,0 +1,60 @@
+"""The weights of the agent with objectives: those that come with the package, and how they are written and read."""
+
+from importlib import resources
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+from safetensors import SafetensorError
+from safetensors.numpy import load, save
+
+from mc_nested.arena.scenario import Scenario
+from mc_nested.arrays import Float32s
+from mc_nested.atomic_file import atomic_write
+from mc_nested.errors import RunError
+from mc_nested.learn.objectives.decide import ObjectiveAgent
+
+FILE = "any-design.safetensors"
+"""The weights that come with the package; any-design.md says what they were trained by, and what they reach."""
+
+MAIN, NESTED = "main", "nested"
+
+
+class Weights(NamedTuple):
+    """Both networks' parameters, (parameters,) each."""
+
+    main: Float32s
+    nested: Float32s
+
+
+def shipped_weights() -> Weights:
+    """Return the weights that come with the package; RunError, one line, if they are broken."""
+    file = resources.files(__package__) / FILE
+    return _parsed(file.read_bytes(), FILE) if file.is_file() else _missing()
+
+
+def save_weights(weights: Weights, file: Path) -> None:
+    """Write the weights; OSError if the disk refuses."""
+    with atomic_write(file) as unfinished:
+        unfinished.write_bytes(save({MAIN: weights.main, NESTED: weights.nested}))
+
+
+def agent_of(weights: Weights, scenario: Scenario) -> ObjectiveAgent:
+    """Return the agent with those weights; RunError, one line, if they are of another version."""
+    try:
+        return ObjectiveAgent(weights.main, weights.nested, scenario)
+    except ValueError as error:
+        raise RunError(f"{FILE}: its weights are of another version ({error}): install the package again") from error
+
+
+def _parsed(content: bytes, source: str) -> Weights:
+    try:
+        arrays = load(content)
+        main, nested = (np.asarray(arrays[name], np.float32).reshape(-1) for name in (MAIN, NESTED))
+    except (SafetensorError, KeyError, ValueError) as error:
+        raise RunError(f"{source}: is broken ({error}): install the package again") from error
+    return Weights(main, nested)
+
+
+def _missing() -> Weights:
+    raise RunError(f"{FILE}: is gone: install the package again")
