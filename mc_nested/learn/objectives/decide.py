@@ -42,13 +42,15 @@ class Plan:
     """What the agent is about.
 
     ``objective`` is None before the first; ``steps`` were spent on it; ``blocks`` had landed when it was chosen.
-    ``given_up`` are objectives that weren't reached since the last block landed.
+    ``given_up`` are objectives that weren't reached since the last block landed. ``tried`` is what was done on the way
+    to this one, and where: the same again in the same cell would lead round in a circle.
     """
 
     objective: Cell | None = None
     steps: int = 0
     blocks: int = 0
     given_up: frozenset[Cell] = frozenset()
+    tried: frozenset[tuple[Cell, Action]] = frozenset()
 
 
 class ObjectiveAgent:
@@ -81,9 +83,12 @@ class ObjectiveAgent:
         if plan.objective is None:
             raise ValueError("nothing is left to build")
         reaching = self._reaching(plan.objective, placed)
-        action = Action(int(self._nested.values(reaching, np.array([framed(cell)]))[0].argmax()))
+        values = self._nested.values(reaching, np.array([framed(cell)]))[0]
+        untried = [each for each in Action if (cell, each) not in plan.tried] or list(Action)
+        action = max(untried, key=lambda each: float(values[each]))
         part = self._scenario.part_at(self._scenario.blocks - len(placed))
-        return Decision(action, self._scenario.best_materials[part]), replace(plan, steps=plan.steps + 1)
+        then = replace(plan, steps=plan.steps + 1, tried=plan.tried | {(cell, action)})
+        return Decision(action, self._scenario.best_materials[part]), then
 
     def is_stuck(self, plan: Plan, placed: frozenset[Cell]) -> bool:
         """Return whether every cell that is left was given up since the last block landed."""
