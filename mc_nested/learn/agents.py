@@ -26,7 +26,7 @@ from mc_nested.arrays import Arrays, Float64s, Int64s, named_for, part_of
 from mc_nested.errors import PresetError
 from mc_nested.learn.builders import Builders, check_builders
 from mc_nested.learn.dqn.engine import NetworkForm
-from mc_nested.learn.dqn.engines import NUMBERS, SCREEN
+from mc_nested.learn.dqn.engines import NUMBERS, OBJECTIVES, SCREEN
 from mc_nested.learn.dqn.replay import ReplayMark
 from mc_nested.learn.dqn.states import PackedPlanes, PlaneStates, States, StateSpace
 from mc_nested.learn.learner import CHOICE_NUMBERS, Learner, summed_by_run
@@ -149,6 +149,11 @@ class Agent:
         each = [stream for stream in streams for _ in range(self._rows_a_run)]
         imitation = (preset.imitation, self._longest) if preset.imitation else None
         self.low_level = Learner(builds, preset, each, imitation)
+
+    @property
+    def has_objectives(self) -> bool:
+        """Whether its main agent's actions are objectives: the next cell to build."""
+        return self._sees == OBJECTIVES
 
     @property
     def _rows_a_run(self) -> int:
