@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 
 from mc_nested.arena.action import Action, Cell
-from mc_nested.arena.rules import landing, moved
+from mc_nested.arena.rules import end_of_episode, landing, moved
 from mc_nested.arena.scenario import Scenario
 from mc_nested.arrays import Float32s
 from mc_nested.learn.objectives.arenas import (
@@ -138,3 +138,13 @@ class ObjectiveAgent:
 
     def _occupied(self, placed: Collection[Cell]) -> np.ndarray[tuple[int, ...], np.dtype[np.bool_]]:
         return self._outside | framed_cells(placed, self._side)
+
+
+def built_by_the_rules(agent: ObjectiveAgent, scenario: Scenario) -> tuple[frozenset[Cell], int]:
+    """Return what stands after one episode of that agent, and its steps, if all goes as the rules say."""
+    plan, cell, placed, steps = Plan(), scenario.start, frozenset[Cell](), 0
+    while not any(end_of_episode(scenario.blocks - len(placed), steps, scenario.step_limit)):
+        decision, plan = agent.decide(plan, cell, placed)
+        cell, placed = agent.expected(cell, placed, decision.action)
+        steps += 1
+    return placed, steps

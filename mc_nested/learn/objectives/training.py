@@ -10,13 +10,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mc_nested.arena.rules import end_of_episode
 from mc_nested.arena.scenario import Scenario
 from mc_nested.arrays import Arrays, named_for, part_of
 from mc_nested.errors import PresetError
 from mc_nested.learn.agents import Agent
 from mc_nested.learn.episode_log import EpisodeRow, EvaluationRow
-from mc_nested.learn.objectives.decide import ObjectiveAgent, Plan
+from mc_nested.learn.objectives.decide import ObjectiveAgent, built_by_the_rules
 from mc_nested.learn.objectives.lessons import MainLessons, NestedLessons
 from mc_nested.learn.objectives.networks import ReachNetwork
 from mc_nested.learn.practice import Practice
@@ -108,11 +107,7 @@ class ObjectivesTraining(Training):
         """Build the scenario greedily, by the rules of the game, and count that as an evaluation."""
         online, scenario = self.agent.online(), self._scenario
         agent = ObjectiveAgent(online["main"][0], online["low"][0], scenario)
-        plan, cell, placed, steps = Plan(), scenario.start, frozenset[tuple[int, int]](), 0
-        while not any(end_of_episode(scenario.blocks - len(placed), steps, scenario.step_limit)):
-            (action, _), plan = agent.decide(plan, cell, placed)
-            cell, placed = agent.expected(cell, placed, action)
-            steps += 1
+        placed, steps = built_by_the_rules(agent, scenario)
         self.evaluation_steps += steps
         score = scenario.score(placed, scenario.best_material)
         row = EvaluationRow(0, int(self.episodes_done[0]), score, scenario.best_material, steps)
