@@ -99,7 +99,7 @@ def build(  # noqa: PLR0913 - a Typer verb: a parameter for each option
 ) -> None:
     """Build a design without learning, and show the arena as it is built; after a mishap it starts over.
 
-    With --agent, cells that can't be reached are named first, and left out. The exit code is 2 if another one is missing.
+    With --agent, cells that can't be reached are named first, and left out. The exit code is 2 if another is missing.
 
     One layer is built. Of a schematic with several, name it with --layer; mc-nested scenarios FILE lists them.
     """

@@ -9,7 +9,7 @@ from mc_nested.arena.action import Cell
 from mc_nested.arena.drawing import AGENT, BUILT, FREE, MISSING, PARTS, WRONG, kind_of
 from mc_nested.arena.scenario import Scenario
 
-OBJECTIVE, OBJECTIVE_NAME = "@", "built next"
+OBJECTIVE, OBJECTIVE_NAME = "@", "next"
 """The cell that the agent is after, while nothing is there."""
 
 STYLES = {
