@@ -123,6 +123,13 @@ class ArenaEnv(gymnasium.Env[Observation, Any]):
         """The cells where a block landed since the last reset."""
         return frozenset(self._placed)
 
+    @property
+    def score(self) -> float:
+        """r_M if the episode ended now."""
+        if self._tally is None:
+            return self.scenario.score(self._placed, self._material)
+        return float(self._tally.total(THE_ARENA)[0])
+
     def reset(
         self, *, seed: int | None = None, options: dict[str, Any] | None = None
     ) -> tuple[Observation, dict[str, Any]]:
@@ -228,7 +235,7 @@ class ArenaEnv(gymnasium.Env[Observation, Any]):
         is_over = not self._running
         if self._tally is None:
             if is_over:
-                info["score"] = self.scenario.score(self._placed, self._material)
+                info["score"] = self.score
             return
         landed = np.array([placed is not None])
         self._tally.lay(landed, np.array([reward > 0]))

@@ -172,6 +172,16 @@ def test_a_cell_on_the_near_edge_is_refused_as_unreachable() -> None:
         parse_scenario(near, "dot.toml")
 
 
+def test_cells_out_of_reach_may_be_drawn_where_some_are_in_reach_and_that_is_asked_for() -> None:
+    near = draw_grid(frozenset({(2, 5), (4, 0)}), 15)
+    drawn = OWN.replace(draw_grid(frozenset({(2, 5)}), 15), near)
+    assert parse_scenario(drawn, "dot.toml", must_reach=False).design == {(2, 5), (4, 0)}
+    one_step = drawn.replace("step_limit = 9", "step_limit = 1")
+    assert parse_scenario(one_step, "dot.toml", must_reach=False).step_limit == 1
+    with pytest.raises(ScenarioError, match=r"cell \(4, 0\) can't be reached"):
+        parse_scenario(drawn.replace(near, draw_grid(frozenset({(4, 0)}), 15)), "dot.toml", must_reach=False)
+
+
 def test_too_few_steps_for_the_blocks_are_refused() -> None:
     tight = OWN.replace("step_limit = 9", "step_limit = 1").replace("..#............", "..##...........")
     with pytest.raises(ScenarioError, match="1 steps can't place 2 blocks: raise it"):

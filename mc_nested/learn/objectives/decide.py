@@ -91,8 +91,9 @@ class ObjectiveAgent:
         return Decision(action, self._scenario.best_materials[part]), then
 
     def is_stuck(self, plan: Plan, placed: frozenset[Cell]) -> bool:
-        """Return whether every cell that is left was given up since the last block landed."""
-        return plan.blocks == len(placed) and self._left(placed) <= plan.given_up
+        """Return whether no cell is left, or each was given up since the last block landed."""
+        left = self._left(placed)
+        return not left or (plan.blocks == len(placed) and left <= plan.given_up)
 
     def expected(self, cell: Cell, placed: frozenset[Cell], action: Action) -> tuple[Cell, frozenset[Cell]]:
         """Return where the agent is after an action, and where blocks are then, as the rules say."""
