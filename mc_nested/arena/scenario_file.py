@@ -80,6 +80,7 @@ class ScenarioTable(BaseModel):
     )
     regions: bool = Field(
         default=False,
+        exclude_if=lambda has_regions: not has_regions,  # checkpoints from before there were any still fit
         description="with parts: each material stands for one of as many regions of the arena, from the near left one "
         "on; a block pays the nested agent in the chosen one alone, and after each the main agent chooses again",
     )
