@@ -211,9 +211,9 @@ def test_the_main_agent_chooses_a_region_after_each_block_and_after_some_steps_w
 def test_the_single_agent_takes_a_region_in_hand_by_an_action_and_is_paid_wherever_a_block_is_on_the_design() -> None:
     env = SingleAgentVectorEnv(GridVectorEnv([HALVES]), [HALVES])
     env.reset()
-    steps = [env.step(np.array([action])) for action in (LEFT, 2 + Action.FD, RIGHT, 2 + Action.RD)]
+    steps = [env.step(np.array([action])) for action in (LEFT, 2 + Action.FD, RIGHT, 2 + Action.BD)]
     assert [int(step[0][0, -1]) for step in steps] == [LEFT + 1, LEFT + 1, RIGHT + 1, RIGHT + 1]
-    assert [float(step[1][0]) for step in steps] == [0.0, 1.0, 0.0, 1.0], "(2, 3) is in the left half"
+    assert [float(step[1][0]) for step in steps] == [0.0, 1.0, 0.0, 1.0], "(1, 2) is in the left half"
 
 
 def test_arenas_without_parts_ignore_a_material_beside_an_action() -> None:
