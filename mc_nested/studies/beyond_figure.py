@@ -62,7 +62,7 @@ def objectives_figure(arms: Arms) -> Figure:
         parameters.plot(
             [arm.materials for arm in of_agent], needed, marker="o", markersize=4, label=agent, **LOOKS[agent]
         )
-    _count_main_actions(parameters, own)
+    _mark_main_actions(parameters, own)
     parameters.set_yscale("log")
     parameters.set(title="what a trial trains", xlabel="objectives", ylabel="parameters of all its networks")
     _finish(scores, "lower left")
@@ -103,11 +103,11 @@ def _draw_main_actions(axes: Axes, own: Sequence[ArmResults], what: str) -> None
         of_agent = [arm for arm in own if arm.name == agent]
         counts = [arm.materials * 1.04 ** (number - 1) for arm in of_agent]
         _draw_means(axes, counts, [arm.within(budget, "steps") for arm in of_agent], optimum, agent, agent)
-    _count_main_actions(axes, own)
+    _mark_main_actions(axes, own)
     axes.set(title=f"main actions, after {budget:,} steps", xlabel=what, ylabel="mean of the last ten")
 
 
-def _count_main_actions(axes: Axes, own: Sequence[ArmResults]) -> None:
+def _mark_main_actions(axes: Axes, own: Sequence[ArmResults]) -> None:
     axes.set_xscale("log", base=2)
     counts = sorted({arm.materials for arm in own})
     axes.set_xticks(counts, [str(count) for count in counts])
