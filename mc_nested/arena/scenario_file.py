@@ -78,6 +78,12 @@ class ScenarioTable(BaseModel):
     choose_every: Annotated[int, Field(ge=1, le=LONGEST)] | None = Field(
         default=None, description="with parts: the main agent chooses again after so many steps within a part, too"
     )
+    regions: bool = Field(
+        default=False,
+        exclude_if=lambda has_regions: not has_regions,  # checkpoints from before there were any still fit
+        description="with parts: each material stands for one of as many regions of the arena, from the near left one "
+        "on; a block pays the nested agent in the chosen one alone, and after each the main agent chooses again",
+    )
 
 
 def paper_scenarios() -> list[str]:
@@ -122,6 +128,7 @@ def scenario_of(table: ScenarioTable, source: str, *, must_reach: bool = True) -
             size=size,
             parts=parts,
             choose_every=table.choose_every,
+            regions=table.regions,
         )
     except ScenarioError as error:
         raise ScenarioError(f"{source}: {error}") from None
@@ -145,6 +152,7 @@ def table_of(scenario: Scenario) -> ScenarioTable:
             for part in scenario.parts
         ],
         choose_every=scenario.choose_every,
+        regions=scenario.regions,
     )
 
 
@@ -201,8 +209,9 @@ def _check(scenario: Scenario, source: str, *, must_reach: bool) -> None:
     names = [material.name for material in scenario.materials]
     if len(set(names)) != len(names):
         raise ScenarioError(f"{source}: materials: two have the same name: rename one")
-    if scenario.choose_every is not None and not scenario.parts:
-        raise ScenarioError(f"{source}: choose_every: goes with [[parts]]: draw the design in one part, or in several")
+    for name in ("choose_every", "regions"):
+        if getattr(scenario, name) and not scenario.parts:
+            raise ScenarioError(f"{source}: {name}: goes with [[parts]]: draw the design in one part, or in several")
     if scenario.parts and not can_be_built(buildable):
         raise ScenarioError(
             f"{source}: parts: what is built first shuts off a cell of a later part: change their order, or the design"

@@ -88,7 +88,7 @@ class FilmedGame:
         if outcome.placed is not None:
             if len(self._placed) < self._scenario.blocks:  # what is placed after the episode's end earns nothing
                 x, y = outcome.placed
-                self._tally.lay(THE_ARENA, self._tally.pays(np.array([x]), np.array([y])))
+                self._tally.lay(THE_ARENA, np.array([x]), np.array([y]))
             self._placed.add(outcome.placed)
         self._show(outcome.cell)
         return outcome
