@@ -182,7 +182,7 @@ def of_another_version(path: Path) -> None:
 @pytest.mark.parametrize(
     ("write", "says"),
     [
-        (lambda _: None, "is gone: install the package again"),
+        (lambda _: None, "can't be read (No such file or directory): install the package again"),
         (lambda path: path.write_bytes(b"no weights"), "is broken ("),
         (lambda path: path.write_bytes(b""), "is broken ("),
         (of_another_version, "its weights are of another version ("),

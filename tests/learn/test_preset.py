@@ -144,7 +144,7 @@ def test_a_saved_preset_is_read_back_unchanged(name: str) -> None:
 
 
 def test_an_unknown_preset_name_is_refused_with_the_known_ones() -> None:
-    with pytest.raises(PresetError, match="no preset 'papr': name one of image, model-based, paper, tuned"):
+    with pytest.raises(PresetError, match="no preset 'papr': name one of any-design, image, model-based, paper, tuned"):
         load_preset("papr")
 
 
