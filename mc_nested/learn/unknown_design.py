@@ -92,7 +92,8 @@ class UnknownDesigns(Agent):
         return chosen
 
     def chosen_materials(self, observations: NDArray[Any]) -> Int64s:  # noqa: ARG002 - it remembers what it chose
-        return self._materials_now.copy()
+        now: Int64s = self._materials_now.copy()
+        return now
 
     def act(self, states: NDArray[Any], materials: Int64s, epsilon: Float64s, uniforms: Float64s) -> Int64s:  # noqa: ARG002
         """Return what every run does next, (runs,); each call is a step of its episode."""
