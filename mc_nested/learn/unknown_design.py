@@ -17,7 +17,7 @@ from mc_nested.arena.vector import NO_ACTION
 from mc_nested.arrays import Arrays, Bools, Float64s, Int64s, named_for, part_of
 from mc_nested.learn.agents import AGENT_SPECS, Agent
 from mc_nested.learn.exploration.schedules import NEVER
-from mc_nested.learn.imagination.beliefs import Belief, Beliefs, believe
+from mc_nested.learn.imagination.beliefs import Belief, Beliefs, beliefs_of, count_try, no_evidence
 from mc_nested.learn.imagination.candidates import candidates
 from mc_nested.learn.imagination.experience import Experience, RealStep
 from mc_nested.learn.imagination.imagination import Surroundings
@@ -37,9 +37,6 @@ EPISODES = 200
 
 LANDS = (0, 1)
 """Where a block lands, seen from the agent: its networks have learnt that in the simulator."""
-
-REMEMBERED = 1000
-"""Episodes that are remembered: a single block is found within 992, in the largest arena."""
 
 
 @dataclass
@@ -67,8 +64,10 @@ class UnknownDesigns(Agent):
         self.size, self.main = surroundings[0].size, None
         self._sees, self._numbered, self._team = "numbers", False, None
         self._weights, self._surroundings = weights, surroundings
-        self._seen = [Experience(REMEMBERED) for _ in surroundings]
-        self._believed: dict[int, tuple[tuple[int, int], Beliefs]] = {}
+        self._seen = [Experience() for _ in surroundings]
+        # What every try so far has shown, and what it had before the episode that runs.
+        self._evidence = np.stack([no_evidence(self.size) for _ in surroundings])
+        self._before = self._evidence.copy()
         self._materials_now = np.zeros(len(surroundings), dtype=np.int64)
         self._episodes = [_Episode(each.start[2]) for each in surroundings]
         self._given: Arrays = {}
@@ -112,10 +111,13 @@ class UnknownDesigns(Agent):
     def begin(self, run: int) -> None:
         """Begin to see an episode."""
         self._seen[run].begin()
+        self._before[run] = self._evidence[run]
 
     def see(self, run: int, step: RealStep) -> None:
         """See what the last action did, and whether it was paid."""
         self._seen[run].add(step)
+        if step.next_blocks < step.blocks:
+            count_try(self._evidence[run], (step.next_x + LANDS[0], step.next_y + LANDS[1]), step.paid)
 
     def end(self, run: int, score: float) -> None:
         """See what the episode scored."""
@@ -123,14 +125,11 @@ class UnknownDesigns(Agent):
 
     def beliefs(self, run: int) -> Beliefs:
         """Return what that run thinks of every cell."""
-        seen, (_, _, blocks), size = self._seen[run], self._surroundings[run].start, self.size
         if self._given:
-            pays = self._given["pays"][run].reshape(size, size)
+            pays = self._given["pays"][run].reshape(self.size, self.size)
             cells = np.where(pays, Belief.PAYS, Belief.PAYS_NOT).astype(np.int8)
             return Beliefs(cells, pays.astype(np.float32), False, float(pays.sum()))
-        if run not in self._believed or self._believed[run][0] != seen.length:
-            self._believed[run] = seen.length, believe(seen.steps, LANDS, size, blocks)
-        return self._believed[run][1]
+        return beliefs_of(self._evidence[run], LANDS, self._surroundings[run].start[2])
 
     def episodes(self, run: int) -> int:
         """Return how many real episodes that run has begun."""
@@ -153,13 +152,14 @@ class UnknownDesigns(Agent):
         return dict.fromkeys(("pays", "worth"), slice(run, run + 1))
 
     def state(self) -> Arrays:
-        """Return what each run has seen, and the material that it has in hand."""
+        """Return what each run has seen, and the material that it has in hand, by name."""
         every = (named_for(str(run), seen.state()) for run, seen in enumerate(self._seen))
-        return {"materials": self._materials_now, **{name: kept for part in every for name, kept in part.items()}}
+        seen = {name: kept for part in every for name, kept in part.items()}
+        return {"materials": self._materials_now, "before": self._before, **seen}
 
     def load(self, state: Mapping[str, NDArray[Any]]) -> None:
         """Continue from what ``state`` returned: the steps of an episode that runs lead to where it is."""
-        self._believed = {}
+        self._before[:] = self._evidence[:] = state["before"]
         self._materials_now[:] = state["materials"]
         for run, seen in enumerate(self._seen):
             kept = part_of(state, str(run))
@@ -168,7 +168,7 @@ class UnknownDesigns(Agent):
             self._episodes[run] = _Episode(self._surroundings[run].start[2])
             for step in (RealStep(*row) for row in kept["steps"][first:].tolist()):
                 self._next(run, step[:3], self._episodes[run])
-                seen.add(step)
+                self.see(run, step)
 
     def _worth(self, run: int) -> Float64s:
         """Return what an episode of each material would bring that run, (materials,)."""

@@ -36,14 +36,10 @@ class Experience:
     """The last episodes of one run, the one that runs included.
 
     What an action led to is in ``steps``; what an episode of a material brought is in ``extras``.
-
-    Args:
-        recent: how many episodes are remembered.
     """
 
-    def __init__(self, recent: int = RECENT) -> None:
+    def __init__(self) -> None:
         self.episodes = 0
-        self._recent = recent
         self._steps: list[RealStep] = []
         self._first_of_episode: list[int] = []
         self._extras: list[tuple[int, float, int]] = []
@@ -77,11 +73,11 @@ class Experience:
         """Begin an episode; the oldest is forgotten where there are too many."""
         self.episodes += 1
         self._first_of_episode.append(len(self._steps))
-        if len(self._first_of_episode) > self._recent:
+        if len(self._first_of_episode) > RECENT:
             dropped = self._first_of_episode[1]
             self._steps = self._steps[dropped:]
             self._first_of_episode = [first - dropped for first in self._first_of_episode[1:]]
-            self._extras = self._extras[-self._recent :]
+            self._extras = self._extras[-RECENT:]
 
     def tried_here(self) -> list[int]:
         """Return the actions that were done in this episode in the cell where it has come to.
