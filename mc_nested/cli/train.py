@@ -67,7 +67,7 @@ BESIDE_RESUME = (
 )
 """The options that a run can be resumed with; all others are in its config.toml."""
 
-BESIDE_A_DESIGN = ("--builders", "--start", "--networks", "--games", "--from")
+NOT_UNKNOWN = ("--builders", "--start", "--networks", "--games", "--from", "--engine", "--device", "--states")
 """The options that don't go with --design-unknown."""
 
 BUILDERS = 2
@@ -220,7 +220,7 @@ def _check_unknown(context: typer.Context, preset: str, agent: str, scenario: Sc
         raise UserError(f"--design-unknown is for the agent with objectives: add --preset {ANY_DESIGN}")
     if agent != "nested":
         raise UserError(f"--design-unknown is for the nested agent: leave out --agent {agent}")
-    for option in BESIDE_A_DESIGN:
+    for option in NOT_UNKNOWN:
         if option in given(context):
             raise UserError(f"{option} doesn't go with --design-unknown: leave it out")
     if scenario.parts:  # what a cell pays would depend on the part
