@@ -25,6 +25,7 @@ BENCHES = {
     "calibration": "how well random virtual clients are calibrated unattended",
     "rehearsal": "calibrating and playing in the rehearsal window, in real time",
     "learning": "updates a second, beside loops of a single run",
+    "any-design": "how many designs the shipped networks build at the first try",
     "costs": "seconds that the paper's three agents train, by turns",
     "game-time": "minutes of game time from scratch to the optimum, on the virtual client",
 }

@@ -152,12 +152,11 @@ class GridVectorEnv(VectorEnv[Int64s, Int64s, Any]):
         stepped = Stepped(np.empty_like(actions), np.empty_like(running), np.empty_like(running))
         step_all(actions, running, tuple(self._layout), tuple(self._episodes), tuple(stepped))
         front, lands, ended = stepped
-        pays = lands & (self._pays(self._tally, front) if self._tally else self._design[front])
+        pays = self._laid(self._tally, lands, front) if self._tally else lands & self._design[front]
         rewards = pays.astype(np.float64)
         self._score += rewards
         info = {"score": np.where(ended, self._score, 0.0), "_score": ended}
         if self._tally:
-            self._tally.lay(lands, pays)
             info = self._tally.info(running, lands, ended)
         return self._observations(), rewards, self._terminated.copy(), self._truncated.copy(), info
 
@@ -215,10 +214,10 @@ class GridVectorEnv(VectorEnv[Int64s, Int64s, Any]):
         size = self.scenarios[run].size
         return solid.reshape(-1, self._side, self._side)[run, 1 : size + 1, 1 : size + 1]
 
-    def _pays(self, tally: Tally, front: Int64s) -> Bools:
-        """Return whether a block would pay there, (R,); it means nothing where none can land."""
+    def _laid(self, tally: Tally, lands: Bools, front: Int64s) -> Bools:
+        """Count the blocks that landed there, and return which of them pay, (R,)."""
         x, y = np.divmod(front - self._base, self._side)
-        return tally.pays(x - 1, np.minimum(y - 1, self._side - 3))
+        return tally.lay(lands, x - 1, y - 1)
 
     def _observations(self) -> Int64s:
         seen = np.empty((self.num_envs, 3), dtype=np.int64)

@@ -11,12 +11,27 @@ is found, and a design for which none is found can't be built.
 
 from collections import deque
 from collections.abc import Collection
+from dataclasses import replace
 from itertools import groupby
 
 from mc_nested.arena.action import Action, Cell
 from mc_nested.arena.rules import PLACES, STEP, WITH_BLOCK, is_inside, moved
 from mc_nested.arena.scenario import Scenario
 from mc_nested.errors import ScenarioError
+
+
+def out_of_reach(scenario: Scenario) -> frozenset[Cell]:
+    """Return the cells of the design where no block can land: the agent can't get to the cell before them."""
+    stands: set[Cell] = set()
+    _spread(stands, scenario.start, (), scenario.size)
+    return frozenset(cell for cell in scenario.design if _before(cell) not in stands)
+
+
+def within_reach(scenario: Scenario) -> Scenario:
+    """Return the scenario without the cells that are out of reach, and without parts of which nothing is left."""
+    design = scenario.design - out_of_reach(scenario)
+    parts = [replace(part, cells=part.cells & design) for part in scenario.parts]
+    return replace(scenario, design=design, parts=tuple(part for part in parts if part.cells))
 
 
 def can_be_built(scenario: Scenario) -> bool:

@@ -101,11 +101,23 @@ def draw_picture(scenario: Scenario, agent: Cell | None, placed: Collection[Cell
     return picture
 
 
+def draw_objective(picture: Picture, size: int, objective: Cell, cell_px: int) -> None:
+    """Frame the cell that the agent is after, in the agent's colour, in an arena's picture."""
+    here = _cell_of(picture, size, objective, cell_px)
+    within = _square(cell_px, 1.0) & ~_square(cell_px, 1.0 + max(2.0, cell_px / 8))
+    here[:] = _rounded(_painted(here.astype(np.float64), AGENT_BODY, within))
+
+
 def draw_agent(picture: Picture, size: int, agent: Cell, cell_px: int, body: Colour = AGENT_BODY) -> None:
     """Lay an agent of that colour over its cell of an arena's picture."""
-    top, left = (size - 1 - agent[1]) * cell_px, agent[0] * cell_px
-    here = picture[top : top + cell_px, left : left + cell_px]
+    here = _cell_of(picture, size, agent, cell_px)
     here[:] = _with_agent(here, body)
+
+
+def _cell_of(picture: Picture, size: int, cell: Cell, cell_px: int) -> Picture:
+    """Return a cell's pixels in an arena's picture, to be drawn on."""
+    top, left = (size - 1 - cell[1]) * cell_px, cell[0] * cell_px
+    return picture[top : top + cell_px, left : left + cell_px]
 
 
 @lru_cache(maxsize=256)

@@ -123,6 +123,13 @@ class ArenaEnv(gymnasium.Env[Observation, Any]):
         """The cells where a block landed since the last reset."""
         return frozenset(self._placed)
 
+    @property
+    def score(self) -> float:
+        """r_M if the episode ended now."""
+        if self._tally is None:
+            return self.scenario.score(self._placed, self._material)
+        return float(self._tally.total(THE_ARENA)[0])
+
     def reset(
         self, *, seed: int | None = None, options: dict[str, Any] | None = None
     ) -> tuple[Observation, dict[str, Any]]:
@@ -142,7 +149,8 @@ class ArenaEnv(gymnasium.Env[Observation, Any]):
     def step(self, action: Any) -> tuple[Observation, float, bool, bool, dict[str, Any]]:
         """Do one action and earn r_N: 1 if the block just placed is on the design, else 0 (paper, section 5.1.3).
 
-        With parts, 1 if it is on the part that is built now. ValueError if the scenario doesn't have that material.
+        With parts, 1 if it is on the part that is built now, and with regions in the chosen one. ValueError if the
+        scenario doesn't have that material.
         """
         if not self._running:
             raise ResetNeeded("the episode has ended, or none has begun: call reset() first")
@@ -153,13 +161,13 @@ class ArenaEnv(gymnasium.Env[Observation, Any]):
         self._steps += 1
         if outcome.placed is not None:
             self._placed.add(outcome.placed)
-        reward = 1.0 if self._pays(outcome.placed) else 0.0
+        reward = 1.0 if self._lay(outcome.placed) else 0.0
         terminated, truncated = end_of_episode(self._blocks_left, self._steps, self.scenario.step_limit)
         self._running = not (terminated or truncated)
         info = self._info()
         if outcome.placed is not None:
             info["placed"] = outcome.placed
-        self._count(info, outcome.placed, reward)
+        self._count(info, outcome.placed)
         return self._observation(), reward, terminated, truncated, dict(info)
 
     def expected(self, action: Any) -> tuple[Observation, bool, bool]:
@@ -170,7 +178,7 @@ class ArenaEnv(gymnasium.Env[Observation, Any]):
         left = self._blocks_left - int(landed[0])
         goes_on, chooses = not any(end_of_episode(left, self._steps + 1, self.scenario.step_limit)), False
         if tally := deepcopy(self._tally):
-            tally.lay(landed, landed)
+            tally.lay(landed, *np.zeros((2, 1), dtype=np.int64))
             chooses = goes_on and bool(tally.chooses(THE_ARENA, landed)[0])
         return np.array([*cell, left], dtype=np.int64), goes_on, chooses
 
@@ -218,21 +226,20 @@ class ArenaEnv(gymnasium.Env[Observation, Any]):
             self._material = material
         return done, material
 
-    def _pays(self, placed: Cell | None) -> bool:
+    def _lay(self, placed: Cell | None) -> bool:
+        """Count the block that landed there, and return whether it pays."""
         if self._tally is None or placed is None:
             return placed in self.scenario.design
-        return bool(self._tally.pays(np.array([placed[0]]), np.array([placed[1]]))[0])
+        return bool(self._tally.lay(THE_ARENA, np.array([placed[0]]), np.array([placed[1]]))[0])
 
-    def _count(self, info: Info, placed: Cell | None, reward: float) -> None:
+    def _count(self, info: Info, placed: Cell | None) -> None:
         """Count the step that was done, and say in ``info`` what it brought the main agent."""
         is_over = not self._running
         if self._tally is None:
             if is_over:
-                info["score"] = self.scenario.score(self._placed, self._material)
+                info["score"] = self.score
             return
-        landed = np.array([placed is not None])
-        self._tally.lay(landed, np.array([reward > 0]))
-        info["chooses"] = bool(self._tally.chooses(THE_ARENA, landed)[0]) and not is_over
+        info["chooses"] = bool(self._tally.chooses(THE_ARENA, np.array([placed is not None]))[0]) and not is_over
         info["earned"] = float(self._tally.total(np.array([is_over]))[0])
         if is_over:
             info["score"] = info["earned"]

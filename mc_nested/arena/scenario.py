@@ -3,12 +3,15 @@
 Parts are built one after the other, and each says what a material is worth in it. The main agent chooses a material for
 every part: the paper's "could take more than one action" (section 4.1). Without parts, a design is one part, and
 everything here is the paper's r_M.
+
+Where the materials are ``regions``, a main action is an objective: a region of the arena to build in next.
 """
 
 from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import accumulate
+from math import isqrt
 from typing import Any
 
 import numpy as np
@@ -75,6 +78,23 @@ def check_parts(parts: Sequence[Part], design: frozenset[Cell]) -> None:
         raise ScenarioError(f"parts: cell {left[0]} of the design is in no part: draw it in one")
 
 
+def regions_of(size: int, count: int) -> Int64s:
+    """Return the region of each cell where an arena is divided into so many, (size, size): the first is near left.
+
+    They lie in as many columns and rows as goes, as near to a square as goes, and as evenly as goes: 2 are a left and a
+    right half. ScenarioError if they are more than there are columns or rows for.
+    """
+    rows = max(number for number in range(1, isqrt(count) + 1) if count % number == 0)
+    columns = count // rows
+    if columns > size:
+        raise ScenarioError(
+            f"regions: {size} columns of cells can't be {columns} of regions: take fewer, or another number"
+        )
+    at = np.arange(size)
+    found: Int64s = (at * columns // size)[:, None] * rows + at * rows // size
+    return found
+
+
 DEFAULT_SIZE = 15
 """Cells along each side of the arena, unless a scenario says otherwise (paper, section 5: a 15 by 15 grid)."""
 
@@ -100,10 +120,12 @@ class Scenario:
     """A task: build the design's cells, one block each, from the start cell within the step limit.
 
     The arena is ``size`` by ``size`` cells. With ``parts``, the design is built one part after the other, and the main
-    agent chooses a material as each begins, and within it every ``choose_every`` steps, if that is given.
+    agent chooses a material as each begins, and within it every ``choose_every`` steps, if that is given. With
+    ``regions``, each material stands for a region of the arena (``regions_of``): a block pays the nested agent in the
+    chosen one alone, and the main agent wherever it is on its part; and each block that lands lets it choose again.
 
     Raises:
-        ScenarioError: the arena can't be that large, a cell lies outside, or the parts don't fit the design.
+        ScenarioError: the arena can't be that large, a cell lies outside, or parts or regions don't fit.
     """
 
     name: str
@@ -114,6 +136,7 @@ class Scenario:
     size: int = DEFAULT_SIZE
     parts: tuple[Part, ...] = ()
     choose_every: int | None = None
+    regions: bool = False
 
     def __post_init__(self) -> None:
         if not SMALLEST_SIZE <= self.size <= LARGEST_SIZE:
@@ -131,6 +154,8 @@ class Scenario:
             raise ScenarioError(f"start: {self.start} lies outside: choose 0 to {self.size - 1} for x and y")
         if self.parts:
             check_parts(self.parts, self.design)
+        if self.regions:
+            regions_of(self.size, len(self.materials))
 
     @cached_property
     def in_order(self) -> tuple[Part, ...]:

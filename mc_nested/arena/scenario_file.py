@@ -9,7 +9,7 @@ from typing import Annotated
 from pydantic import BaseModel, ConfigDict, Field
 
 from mc_nested.arena.action import Cell
-from mc_nested.arena.builder import can_be_built
+from mc_nested.arena.builder import can_be_built, out_of_reach, within_reach
 from mc_nested.arena.scenario import LARGEST_SIZE, SMALLEST_SIZE, Material, Part, Scenario
 from mc_nested.errors import ScenarioError
 from mc_nested.toml_file import parse_toml, read_shipped_or_named
@@ -78,6 +78,12 @@ class ScenarioTable(BaseModel):
     choose_every: Annotated[int, Field(ge=1, le=LONGEST)] | None = Field(
         default=None, description="with parts: the main agent chooses again after so many steps within a part, too"
     )
+    regions: bool = Field(
+        default=False,
+        exclude_if=lambda has_regions: not has_regions,  # checkpoints from before there were any still fit
+        description="with parts: each material stands for one of as many regions of the arena, from the near left one "
+        "on; a block pays the nested agent in the chosen one alone, and after each the main agent chooses again",
+    )
 
 
 def paper_scenarios() -> list[str]:
@@ -90,20 +96,26 @@ def shipped_scenarios() -> list[str]:
     return [*paper_scenarios(), "islands", "house", "square", "flag"]
 
 
-def load_scenario(name_or_file: str | Path) -> Scenario:
-    """Return the scenario of a shipped name or of a TOML file; ScenarioError, one line if it can't be used."""
+def load_scenario(name_or_file: str | Path, *, must_reach: bool = True) -> Scenario:
+    """Return the scenario of a shipped name or of a TOML file; ScenarioError, one line if it can't be used.
+
+    Without ``must_reach``, some cells of its design may be out of reach (builder.within_reach).
+    """
     shipped = shipped_scenarios()
     text = read_shipped_or_named(name_or_file, "scenario", "mc_nested.arena.designs", shipped, ScenarioError)
-    return parse_scenario(text, str(name_or_file))
+    return parse_scenario(text, str(name_or_file), must_reach=must_reach)
 
 
-def parse_scenario(text: str, source: str) -> Scenario:
+def parse_scenario(text: str, source: str, *, must_reach: bool = True) -> Scenario:
     """Return the scenario that a TOML text describes; ``source`` names it in errors."""
-    return scenario_of(parse_toml(ScenarioTable, text, source, ScenarioError), source)
+    return scenario_of(parse_toml(ScenarioTable, text, source, ScenarioError), source, must_reach=must_reach)
 
 
-def scenario_of(table: ScenarioTable, source: str) -> Scenario:
-    """Return the scenario of a table; ScenarioError, one line that names ``source``, if it can't be built."""
+def scenario_of(table: ScenarioTable, source: str, *, must_reach: bool = True) -> Scenario:
+    """Return the scenario of a table; ScenarioError, one line that names ``source``, if it can't be built.
+
+    Without ``must_reach``, it can be built if any of its cells can.
+    """
     design, size = _parse_grid(table.design, f"{source}: design")
     parts = tuple(_part_of(part, number, table, source) for number, part in enumerate(table.parts, 1))
     try:
@@ -116,10 +128,11 @@ def scenario_of(table: ScenarioTable, source: str) -> Scenario:
             size=size,
             parts=parts,
             choose_every=table.choose_every,
+            regions=table.regions,
         )
     except ScenarioError as error:
         raise ScenarioError(f"{source}: {error}") from None
-    _check(scenario, source)
+    _check(scenario, source, must_reach=must_reach)
     return scenario
 
 
@@ -139,6 +152,7 @@ def table_of(scenario: Scenario) -> ScenarioTable:
             for part in scenario.parts
         ],
         choose_every=scenario.choose_every,
+        regions=scenario.regions,
     )
 
 
@@ -177,27 +191,28 @@ def _parse_grid(grid: str, where: str) -> tuple[frozenset[Cell], int]:
     return cells, size
 
 
-def _check(scenario: Scenario, source: str) -> None:
+def _check(scenario: Scenario, source: str, *, must_reach: bool) -> None:
     if not scenario.design:
         raise ScenarioError(f"{source}: design: has no block ({BLOCK!r}): draw at least one")
     # A block lands in front of the agent (y + 1), so the cells of the near edge can't be reached from inside the arena.
     # All other cells can be built, even all of them together: farthest row first.
-    unreachable = sorted(cell for cell in scenario.design if cell[1] == 0)
-    if unreachable:
+    unreachable, buildable = sorted(out_of_reach(scenario)), within_reach(scenario)
+    if unreachable and (must_reach or not buildable.design):
         raise ScenarioError(
             f"{source}: design: cell {unreachable[0]} can't be reached, a block lands in front of the agent: "
             f"keep the bottom row free"
         )
-    if scenario.step_limit < scenario.blocks:
+    if scenario.step_limit < buildable.blocks:
         raise ScenarioError(
-            f"{source}: step_limit: {scenario.step_limit} steps can't place {scenario.blocks} blocks: raise it"
+            f"{source}: step_limit: {scenario.step_limit} steps can't place {buildable.blocks} blocks: raise it"
         )
     names = [material.name for material in scenario.materials]
     if len(set(names)) != len(names):
         raise ScenarioError(f"{source}: materials: two have the same name: rename one")
-    if scenario.choose_every is not None and not scenario.parts:
-        raise ScenarioError(f"{source}: choose_every: goes with [[parts]]: draw the design in one part, or in several")
-    if scenario.parts and not can_be_built(scenario):
+    for name in ("choose_every", "regions"):
+        if getattr(scenario, name) and not scenario.parts:
+            raise ScenarioError(f"{source}: {name}: goes with [[parts]]: draw the design in one part, or in several")
+    if scenario.parts and not can_be_built(buildable):
         raise ScenarioError(
             f"{source}: parts: what is built first shuts off a cell of a later part: change their order, or the design"
         )

@@ -22,7 +22,7 @@ from gymnasium.vector.utils import batch_space
 from numpy.typing import NDArray
 
 from mc_nested.arena.action import Action
-from mc_nested.arena.env import BLOCKS_LEFT, highest_observation, space_up_to
+from mc_nested.arena.env import BLOCKS_LEFT, X, Y, highest_observation, space_up_to
 from mc_nested.arena.game import Resumable
 from mc_nested.arena.scenario import Scenario
 from mc_nested.arena.tally import tally_of
@@ -134,7 +134,7 @@ class SingleAgentVectorEnv(VectorWrapper):
         observations, earned, terminated, _, _ = self.env.step(self._taken_within(acts, actions))
         if self._tally:
             landed = acts & (observations[:, BLOCKS_LEFT] < self._observations[:, BLOCKS_LEFT])
-            self._tally.lay(landed, landed & (earned > 0))
+            self._tally.lay(landed, observations[:, X], observations[:, Y] + 1)  # in front of the agent
         return observations, earned, terminated
 
     def _taken_within(self, acts: Bools, actions: Int64s) -> Int64s:

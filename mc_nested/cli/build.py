@@ -1,6 +1,9 @@
-"""``mc-nested build``: a known design, built by the scripted builder, in the simulator or in a running game."""
+"""``mc-nested build``: a known design, built in the simulator or in a running game.
 
-from collections.abc import Sequence
+The scripted builder builds it, or the agent with objectives, whose weights come with the package.
+"""
+
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from functools import partial
 from itertools import groupby
@@ -10,8 +13,8 @@ from typing import Annotated
 import typer
 
 from calibration.arena.undo import undo_command
-from mc_nested.arena.action import Action
-from mc_nested.arena.builder import build_with_materials
+from mc_nested.arena.action import Cell
+from mc_nested.arena.builder import build_with_materials, within_reach
 from mc_nested.arena.design import is_buildable
 from mc_nested.arena.env import ArenaEnv, step_in
 from mc_nested.arena.game import Game
@@ -31,6 +34,8 @@ from mc_nested.cli.output import JsonOption, Output, QuietOption, prints
 from mc_nested.cli.view import Viewed, ViewOption, viewed
 from mc_nested.cli.watching import VideoOption, filmed, started_over, times_of, watched
 from mc_nested.errors import ScenarioError, UserError
+from mc_nested.learn.objectives.building import Step, steps_of
+from mc_nested.learn.objectives.weights import agent_of, shipped_weights
 from mc_nested.live.profile.store import load_profile, profile_path
 from mc_nested.report.film import check_film
 from sim.worlds import Backend, open_game, where_words
@@ -46,12 +51,37 @@ class Built:
     material: Annotated[str, "what it is built of"]
     steps: Annotated[int, "that it took"]
     film: Annotated[Path | None, "its file"]
+    score: Annotated[float, "r_M of what stands"]
+    optimum: Annotated[float, "the highest score possible"]
+    unreachable: Annotated[tuple[Cell, ...], "cells of the design where no block can land, x and y each"]
+
+
+@dataclass(frozen=True)
+class _Episode:
+    """An episode that was played: blocks that stand on the design, and that weren't laid, and each step's material."""
+
+    built: int
+    left: int
+    score: float
+    materials: list[int]
+    is_cut_off: bool
+
+
+Steps = Callable[[ArenaEnv], Iterator[Step]]
+"""Chooses the steps of an episode that has begun."""
 
 
 @prints(Built)
 def build(  # noqa: PLR0913 - a Typer verb: a parameter for each option
     design: Annotated[str, typer.Argument(metavar="NAME|FILE", help=f"the design: {FILES}")],
     layer: LayerOption = None,
+    agent: Annotated[
+        bool,
+        typer.Option(
+            "--agent",
+            help="let the agent that comes with the package build it, which has never seen it",
+        ),
+    ] = False,
     material: Annotated[
         str | None, typer.Option(help="what it is built of", show_default="the one worth most, in each part")
     ] = None,
@@ -69,51 +99,105 @@ def build(  # noqa: PLR0913 - a Typer verb: a parameter for each option
 ) -> None:
     """Build a design without learning, and show the arena as it is built; after a mishap it starts over.
 
+    With --agent, cells that can't be reached are named first, and left out. The exit code is 2 if another is missing.
+
     One layer is built. Of a schematic with several, name it with --layer; mc-nested scenarios FILE lists them.
     """
     if video:
         check_film(video)
-    scenario = named_scenario(design, layer, must_choose=True)
-    chosen = build_with_materials(scenario, None if material is None else scenario.material_index(material))
-    steps = len(chosen)
-    if not is_buildable(scenario):
-        raise ScenarioError(
-            f"scenario {scenario.name}: the scripted builder takes {steps} steps, and its step_limit is "
-            f"{scenario.step_limit}: raise it"
-        )
+    drawn = named_scenario(design, layer, must_choose=True, must_reach=not agent)
+    scenario = within_reach(drawn)
+    in_hand = None if material is None else scenario.material_index(material)
+    steps = _by_the_agent(scenario, in_hand) if agent else _by_the_builder(scenario, in_hand)
     afterwards = _how_to_put_back(profile, yes=yes) if backend is Backend.LIVE else None
     output = Output(quiet, as_json)
     if afterwards and not quiet:
         typer.echo(f"  building clears the arena first; {afterwards}", err=True)
+    unreachable = tuple(sorted(drawn.design - scenario.design))
+    if unreachable and not quiet:
+        cells = ", ".join(map(str, unreachable))
+        typer.echo(f"  no block can land on {cells}: out of the agent's reach; all else is built", err=True)
     opening = opening_of(profile, f"build-{scenario.name}", record, server_allowed=server_allowed)
     with viewed(view, "build", f"{scenario.name}, {where_words(backend)}") as viewing:
         opened = open_game(backend, scenario, replace(opening, journal=viewing.publisher.board))
         with opened as (played, display), filmed(played, display, scenario, video) as game:
-            built = started_over(partial(_built, game, scenario, chosen, viewing, quiet=quiet or as_json))
+            episode = started_over(partial(_built, game, scenario, in_hand, steps, viewing, quiet=quiet or as_json))
             times = times_of(game)
-    name = ", then ".join(scenario.materials[index].name for index, _ in groupby(index for _, index in chosen))
+    built, count = episode.built, len(episode.materials)
+    name = ", then ".join(scenario.materials[index].name for index, _ in groupby(episode.materials))
+    found = Built(
+        scenario=scenario.name,
+        blocks=drawn.blocks,
+        built=built,
+        material=name,
+        steps=count,
+        film=video,
+        score=episode.score,
+        optimum=scenario.optimum,
+        unreachable=unreachable,
+    )
     output.result(
-        Built(scenario.name, scenario.blocks, built, name, steps, video),
-        f"  built {built} of {scenario.blocks} blocks, of {name}, in {steps} steps",
+        found,
+        f"  built {built} of {drawn.blocks} blocks, of {name}, in {count} steps",
         *times,
         *([f"  film: {video}"] if video else []),
     )
     if afterwards:
         output.hint(f"  it stands until the arena is cleared for the next episode; {afterwards}")
+    _check_whole(episode, scenario)
 
 
-def _built(game: Game, scenario: Scenario, steps: Sequence[tuple[Action, int]], viewing: Viewed, *, quiet: bool) -> int:
-    """Build the design from a reset on, and return how many of its blocks stand then."""
+def _built(
+    game: Game, scenario: Scenario, material: int | None, steps: Steps, viewing: Viewed, *, quiet: bool
+) -> _Episode:
+    """Build the design from a reset on."""
     env = ArenaEnv(game, scenario)
+    materials: list[int] = []
+    is_cut_off = False
     with watched(env, scenario.name, viewing, quiet=quiet) as show:
-        env.reset(options={"material": scenario.materials[steps[0][1]].name})
-        show()
-        taken = [step_in(scenario, *step) for step in steps]
-        for step, following in zip(taken, [*taken[1:], None], strict=True):
-            env.announce(following)
-            env.step(step)
-            show()
-    return len(env.placed & scenario.design)
+        first = scenario.best_material if material is None else material
+        env.reset(options={"material": scenario.materials[first].name})
+        for taken, following, objective in steps(env):
+            show(objective)
+            env.announce(following and step_in(scenario, *following))
+            _, _, is_built, is_cut_off, _ = env.step(step_in(scenario, *taken))
+            materials.append(taken[1])
+            if is_built or is_cut_off:
+                break
+        show(None)
+    built = len(env.placed & scenario.design)
+    return _Episode(built, scenario.blocks - len(env.placed), env.score, materials, is_cut_off)
+
+
+def _by_the_builder(scenario: Scenario, material: int | None) -> Steps:
+    """Return the scripted builder's steps; ScenarioError if the step limit is too low for them."""
+    chosen = build_with_materials(scenario, material)
+    if not is_buildable(scenario):
+        raise ScenarioError(
+            f"scenario {scenario.name}: the scripted builder takes {len(chosen)} steps, and its step_limit is "
+            f"{scenario.step_limit}: raise it"
+        )
+    steps = [Step(taken, following) for taken, following in zip(chosen, [*chosen[1:], None], strict=True)]
+    return lambda _: iter(steps)
+
+
+def _by_the_agent(scenario: Scenario, material: int | None) -> Steps:
+    """Return the steps that the shipped agent chooses; RunError, one line, if its weights can't be used."""
+    agent = agent_of(shipped_weights(), scenario)
+    return lambda env: steps_of(agent, env, material)
+
+
+def _check_whole(episode: _Episode, scenario: Scenario) -> None:
+    """Raise UserError, one line, if a block in reach is missing."""
+    if episode.built == scenario.blocks:
+        return
+    if episode.is_cut_off:
+        why = f"its step_limit of {scenario.step_limit} was reached: raise it, or build"
+    elif episode.left:
+        why = "it gave up the others: build"
+    else:
+        why = "it laid the others off the design: build"
+    raise UserError(f"the agent built {episode.built} of {scenario.blocks} blocks in reach, {why} without --agent")
 
 
 def _how_to_put_back(profile_name: str, *, yes: bool) -> str:

@@ -154,12 +154,13 @@ def played_live(log: PlayLog | None, failure_budget: FailureBudget) -> dict[str,
     return {"live": {**log.summary(), **failure_budget.summary()}} if log else {}
 
 
-def named_scenario(name: str, layer: int | None, *, must_choose: bool = False) -> Scenario:
+def named_scenario(name: str, layer: int | None, *, must_choose: bool = False, must_reach: bool = True) -> Scenario:
     """Return the scenario of that name or file; what a person should know about it is printed, a line each.
 
-    ``must_choose``: a file with several layers needs ``layer``. Raise ScenarioError, one line, if it can't be used.
+    ``must_choose``: a file with several layers needs ``layer``. ``must_reach``: every cell drawn can be built. Raise
+    ScenarioError, one line, if it can't be used.
     """
-    loaded = load_any_scenario(name, layer, must_choose=must_choose)
+    loaded = load_any_scenario(name, layer, must_choose=must_choose, must_reach=must_reach)
     print_notes(loaded)
     return loaded.scenario
 

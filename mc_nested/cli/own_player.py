@@ -10,6 +10,7 @@ from mc_nested.arena.game import PlayLog
 from mc_nested.arena.vector import ArenaVectorEnv
 from mc_nested.cli.options import played_live
 from mc_nested.errors import DesktopError, LiveError, NotInFrontError
+from mc_nested.learn.objectives.training import ObjectivesTraining
 from mc_nested.learn.runs.run_folder import RunFolder
 from mc_nested.learn.trainer import Trainer
 from mc_nested.live.action_log import FailureBudget
@@ -24,7 +25,7 @@ from sim.worlds import Backend, as_shown, open_arenas
 class OwnPlayer:
     """A trainer and its arenas here; ``log`` says what playing took, None of the simulator."""
 
-    training: Trainer
+    training: Trainer | ObjectivesTraining
     arenas: GridVectorEnv | ArenaVectorEnv | TeamVectorEnv
     log: PlayLog | None
     was_paused_lately: Callable[[], bool]
@@ -70,5 +71,7 @@ def own_player(folder: RunFolder, opening: Opening, publisher: Publisher) -> Ite
         agent = folder.new_agent(config.trials, config.preset.device)
         shown = env if isinstance(env, TeamVectorEnv) else as_shown(env, config.preset.states)
         view = agent.view_of(shown, folder.scenarios)
-        trainer = Trainer(view, folder.scenarios, agent, config.preset, config.seed, config.stop_at_optimum)
+        asked = folder.scenarios, agent, config.preset, config.seed, config.stop_at_optimum
+        learns = config.preset.objectives and not config.design_unknown
+        trainer = ObjectivesTraining(*asked) if learns else Trainer(view, *asked)
         yield OwnPlayer(trainer, env, log, lambda: publisher.was_paused_lately)

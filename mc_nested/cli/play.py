@@ -130,7 +130,7 @@ def _watch(
     with watched(env, f"{scenario.name}, trial {which}", viewing, quiet=is_quiet) as show:
 
         def after_step() -> None:
-            show()
+            show(None)
             if pictures:
                 pictures.take()
 

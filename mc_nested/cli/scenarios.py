@@ -33,8 +33,8 @@ class ScenarioList:
     scenarios: Annotated[
         Sequence[object],
         "of each: name, size, blocks, materials, optimum, fewest_steps (is_exact: by search), builder_steps, "
-        "step_limit, parts (cells as rows, worth by material), choose_every (None: once a part) and the design as "
-        "rows, the far edge first",
+        "step_limit, parts (cells as rows, worth by material), choose_every (None: once a part), regions (whether "
+        "the materials are some) and the design as rows, the far edge first",
     ]
 
 
@@ -106,6 +106,7 @@ def _fields(scenario: Scenario) -> dict[str, Any]:
             for part in scenario.parts
         ],
         "choose_every": scenario.choose_every,
+        "regions": scenario.regions,
         "design": draw_grid(scenario.design, scenario.size).split(),
     }
 
@@ -132,7 +133,7 @@ def _facts(scenario: Scenario) -> Group:
     lines = [
         f"arena      {scenario.size} x {scenario.size} cells",
         f"blocks     {scenario.blocks}",
-        f"materials  {materials}",
+        f"{'regions' if scenario.regions else 'materials':<9}  {materials}",
         *(_part_line(scenario, number) for number in range(len(scenario.parts))),
         f"optimum    {scenario.optimum:g}",
         f"fewest     {steps}",

@@ -151,8 +151,8 @@ class Judged(Studied):
 
     claims: Annotated[
         Sequence[object],
-        "letter, claim and verdict of each; robustness adds choices, the verdict under each; beyond adds trials, how "
-        "many would decide it, or null for more than 1,000 and for what is counted",
+        "letter, claim and verdict of each; robustness adds choices, the verdict under each; beyond and objectives add "
+        "trials, how many would decide it, or null for more than 1,000 and for what is counted",
     ]
 
 
@@ -167,6 +167,7 @@ RESULTS: Mapping[str, type[Studied]] = {
     "reproduce": Judged,
     "robustness": Judged,
     "beyond": Judged,
+    "objectives": Judged,
     "benchmark": Measured,
 }
 """What a study prints that has more than its files to show."""

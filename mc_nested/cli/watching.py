@@ -11,6 +11,7 @@ from rich.console import Console, Group
 from rich.live import Live
 from rich.text import Text
 
+from mc_nested.arena.action import Cell
 from mc_nested.arena.drawing import Picture
 from mc_nested.arena.env import ArenaEnv
 from mc_nested.arena.game import Game
@@ -44,32 +45,39 @@ TRIES = 3
 Played = TypeVar("Played")
 
 
-def arena_seen(env: ArenaEnv) -> ArenaSeen:
-    """Return an Env's arena for the view."""
+def arena_seen(env: ArenaEnv, objective: Cell | None) -> ArenaSeen:
+    """Return an Env's arena for the view, and the cell that the agent is after in it, if it has one."""
     stands = tuple(Standing(x, y, 1) for x, y in sorted(env.placed))
-    return ArenaSeen.of(env.scenario).model_copy(update={"stands": stands, "agents": (Standing(*env.cell, 1),)})
+    return ArenaSeen.of(env.scenario).model_copy(
+        update={"stands": stands, "agents": (Standing(*env.cell, 1),), "objective": objective}
+    )
 
 
 @contextmanager
-def watched(env: ArenaEnv, title: str, viewing: Viewed, *, quiet: bool = False) -> Iterator[Callable[[], None]]:
+def watched(
+    env: ArenaEnv, title: str, viewing: Viewed, *, quiet: bool = False
+) -> Iterator[Callable[[Cell | None], None]]:
     """Yield a function that shows the arena as it is now, in the place of what it showed before, while the block runs.
 
-    It publishes the arena, too, and returns once no pause is wanted. A view leaves no room for anything else
-    here; in it, simulated steps are slowed down, so that they can be followed.
+    It takes the cell that the agent is after from now on, if it has one, and tells a film of it, too. It publishes the
+    arena, and returns once no pause is wanted. A view leaves no room for anything else here; in it, simulated steps are
+    slowed down, so that they can be followed.
     """
     quiet = quiet or viewing.is_shown
     console = Console(quiet=quiet)
     with Live(console=console, auto_refresh=False) as live:
 
-        def show() -> None:
+        def show(objective: Cell | None) -> None:
             scenario = env.scenario
-            viewing.publisher.board.show(arena=arena_seen(env))
+            viewing.publisher.board.show(arena=arena_seen(env, objective))
+            if isinstance(env.game, FilmedGame):
+                env.game.objective = objective
             viewing.publisher.wait_while_paused()
             if viewing.is_shown and env.game.log is None:
                 time.sleep(STEP_S)
             built = len(env.placed & scenario.design)
             line = Text(f"  {title}: {built} of {scenario.blocks} blocks on the design")
-            live.update(Group(arena_view(scenario, env.cell, env.placed), line), refresh=True)
+            live.update(Group(arena_view(scenario, env.cell, env.placed, objective), line), refresh=True)
 
         yield show
     if not (quiet or console.is_terminal):

@@ -50,18 +50,23 @@ def is_design_file(name_or_file: str | Path) -> bool:
 
 
 def load_any_scenario(
-    name_or_file: str | Path, layer: int | None = None, *, must_choose: bool = False, option: str = LAYER_OPTION
+    name_or_file: str | Path,
+    layer: int | None = None,
+    *,
+    must_choose: bool = False,
+    must_reach: bool = True,
+    option: str = LAYER_OPTION,
 ) -> Loaded:
     """Return the scenario of a shipped name, of a TOML file, or of a layer of a design file.
 
     ``layer`` counts from 0, the lowest; default: the lowest that has blocks. With ``must_choose`` there is no default
-    where several have blocks. Messages call the way to name a layer ``option``. ScenarioError, one line, if it can't
-    be used.
+    where several have blocks. Without ``must_reach``, a TOML file may draw cells that are out of reach. Messages call
+    the way to name a layer ``option``. ScenarioError, one line, if it can't be used.
     """
     if not is_design_file(name_or_file):
         if layer is not None:
             raise ScenarioError(f"{name_or_file} is a drawing of one layer: leave out {option}")
-        return Loaded(load_scenario(name_or_file))
+        return Loaded(load_scenario(name_or_file, must_reach=must_reach))
     path = Path(name_or_file)
     return load_layer(path, read_volume(path), layer, must_choose=must_choose, option=option)
 

@@ -26,10 +26,12 @@ from mc_nested.arrays import Arrays, Float64s, Int64s, named_for, part_of
 from mc_nested.errors import PresetError
 from mc_nested.learn.builders import Builders, check_builders
 from mc_nested.learn.dqn.engine import NetworkForm
-from mc_nested.learn.dqn.engines import NUMBERS, SCREEN
+from mc_nested.learn.dqn.engines import NUMBERS, OBJECTIVES, SCREEN
 from mc_nested.learn.dqn.replay import ReplayMark
-from mc_nested.learn.dqn.states import PlaneStates, States, StateSpace
+from mc_nested.learn.dqn.states import PackedPlanes, PlaneStates, States, StateSpace
 from mc_nested.learn.learner import CHOICE_NUMBERS, Learner, summed_by_run
+from mc_nested.learn.objectives.arenas import PLANES as OBJECTIVE_PLANES
+from mc_nested.learn.objectives.arenas import side_for
 from mc_nested.learn.preset import Preset
 from mc_nested.learn.streams import initial_stream
 
@@ -69,7 +71,8 @@ def check_exploration(spec: AgentSpec, preset: Preset) -> None:
         return
     if preset.states == SCREEN:  # it chooses a material in the game, where no window shows which
         raise PresetError('states "screen" are not for the single agent: take nested or hierarchical')
-    for name, table in (("[excursions]", preset.excursions), ("[imagination]", preset.imagination)):
+    tables = ("excursions", "imagination", "objectives")
+    for name, table in ((f"[{name}]", getattr(preset, name)) for name in tables):
         if table:  # its choice of a material is a step like any other
             raise PresetError(f"{name} is not for the single agent: take nested or hierarchical, or the preset paper")
 
@@ -136,6 +139,8 @@ class Agent:
         self._share_a_row = self.builders if team and team.networks == "shared" else 1
         if self._sees == NUMBERS:
             chooses, builds = self._numbers(scenarios, preset.encoding)
+        elif preset.objectives:
+            chooses, builds = self._objectives(len(scenarios), side_for(preset.objectives.largest))
         else:
             shape = SCREEN_SHAPE if self._sees == SCREEN else (PLANES, *(common_size(scenarios),) * 2)
             chooses, builds = self._planes(len(scenarios), shape)
@@ -144,6 +149,11 @@ class Agent:
         each = [stream for stream in streams for _ in range(self._rows_a_run)]
         imitation = (preset.imitation, self._longest) if preset.imitation else None
         self.low_level = Learner(builds, preset, each, imitation)
+
+    @property
+    def has_objectives(self) -> bool:
+        """Whether its main agent's actions are objectives: the next cell to build."""
+        return self._sees == OBJECTIVES
 
     @property
     def _rows_a_run(self) -> int:
@@ -346,6 +356,11 @@ class Agent:
         more = self.spec.appends_material or self.spec.sees_choice
         builds = PlaneStates(runs * self._rows_a_run, self._low_level_actions, (shape[0] + more, *shape[1:]))
         return PlaneStates(runs, self._materials, shape), builds
+
+    def _objectives(self, runs: int, side: int) -> tuple[States, States]:
+        """Return the main agent's states, whose actions are cells, and the nested agent's: bits of frames."""
+        planes = (OBJECTIVE_PLANES, side, side)
+        return PackedPlanes(runs, side * side, planes), PackedPlanes(runs, self._low_level_actions, planes)
 
     @property
     def _low_level_actions(self) -> int:

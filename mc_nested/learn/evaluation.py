@@ -8,11 +8,16 @@ from typing import Any
 import numpy as np
 from gymnasium.vector import VectorEnv
 
+from mc_nested.arena.action import Cell
+from mc_nested.arena.env import BLOCKS_LEFT, X, Y
+from mc_nested.arena.rules import front_of
 from mc_nested.arena.scenario import Scenario
-from mc_nested.arrays import Int64s
+from mc_nested.arena.vector import NO_ACTION, foresees
+from mc_nested.arrays import Bools, Int64s
 from mc_nested.learn.agents import Agent
 from mc_nested.learn.foresight import announce
 from mc_nested.learn.learner import CHOICE_NUMBERS
+from mc_nested.learn.objectives.decide import ObjectiveAgent, Plan
 
 
 @dataclass
@@ -44,6 +49,8 @@ def play_greedily(
     after_step: Callable[[], None] = lambda: None,
 ) -> list[GreedyEpisode]:
     """Play one greedy episode of every run, from a reset on; ``after_step`` is called after each step of all runs."""
+    if agent.has_objectives:
+        return _build_greedily(env, scenarios, agent, after_step)
     runs, builders = len(scenarios), agent.builders
     first = slice(None, None, builders)
     has_parts = any(scenario.parts for scenario in scenarios)
@@ -72,4 +79,50 @@ def play_greedily(
             materials[due] = agent.main.act(observations[due], never[due], unused[due], due)
         running = ~(terminated | truncated)[first]
         after_step()
+    return episodes
+
+
+def _build_greedily(
+    env: VectorEnv[Int64s, Int64s, Any], scenarios: Sequence[Scenario], agent: Agent, after_step: Callable[[], None]
+) -> list[GreedyEpisode]:
+    """Do ``play_greedily`` with objectives: the main agent is told each scenario's design."""
+    main, nested = agent.online()["main"], agent.online()["low"]
+    agents = [ObjectiveAgent(*own) for own in zip(main, nested, scenarios, strict=True)]
+    has_parts = any(scenario.parts for scenario in scenarios)
+    observations, _ = env.reset(options={"material": np.array([scenario.best_material for scenario in scenarios])})
+    episodes = [GreedyEpisode() for _ in scenarios]
+    plans, blocks = [Plan() for _ in scenarios], [frozenset[Cell]() for _ in scenarios]
+    running = np.ones(len(scenarios), dtype=np.bool_)
+
+    def decided(
+        seen: Int64s, stands: list[frozenset[Cell]], about: list[Plan], asked: Bools
+    ) -> tuple[Int64s, list[Plan]]:
+        takes, then = np.full((len(agents), 2), NO_ACTION), list(about)
+        for run in asked.nonzero()[0].tolist():
+            takes[run], then[run] = agents[run].decide(about[run], (int(seen[run, X]), int(seen[run, Y])), stands[run])
+        return takes if has_parts else takes[:, 0], then
+
+    def stand(before: Int64s, after: Int64s) -> list[frozenset[Cell]]:
+        landed = before[:, BLOCKS_LEFT] > after[:, BLOCKS_LEFT]
+        fronts = [front_of((int(x), int(y))) for x, y in after[:, [X, Y]]]
+        return [own | {front} if is_new else own for own, front, is_new in zip(blocks, fronts, landed, strict=True)]
+
+    takes, plans = decided(observations, blocks, plans, running)
+    while running.any():
+        if foresees(env):
+            expected, goes_on, _ = env.expected(takes)  # type: ignore[attr-defined]  # it says so itself
+            following, _ = decided(expected, stand(observations, expected), plans, running & goes_on)
+            env.announce(following)  # type: ignore[attr-defined]
+        before = observations
+        observations, _, terminated, truncated, info = env.step(takes)
+        blocks = stand(before, observations)
+        for run in running.nonzero()[0].tolist():
+            action, material = np.atleast_1d(takes[run]).tolist()[0], scenarios[run].best_material
+            episodes[run].actions.append(action)
+            episodes[run].materials.append(int(takes[run][1]) if has_parts else material)
+            if info["_score"][run]:
+                episodes[run].score = float(info["score"][run])
+        running = ~(terminated | truncated)
+        after_step()
+        takes, plans = decided(observations, blocks, plans, running)
     return episodes

@@ -6,8 +6,9 @@ from typing import Annotated, Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
 
+from mc_nested.arena.scenario import LARGEST_SIZE, SMALLEST_SIZE
 from mc_nested.errors import PresetError
-from mc_nested.learn.dqn.engines import EngineChoice, misfit
+from mc_nested.learn.dqn.engines import OBJECTIVES, ORDER, EngineChoice, misfit
 from mc_nested.toml_file import parse_toml, read_shipped_or_named
 
 MOST = 1_000_000_000
@@ -21,6 +22,9 @@ MOST_UPDATES_A_STEP = 1000
 
 MOST_TABLE_STEPS, MOST_STEPS_OF_A_RETURN = 100_000_000, 1000
 """More imagined steps would take minutes; a return of more steps is longer than an episode."""
+
+MOST_ARENAS = 1024
+"""Arenas of a training side by side."""
 
 MOST_BEFORE_PRACTICE = 250_000
 """Imagined transitions before the first update: as many as a practice keeps."""
@@ -136,6 +140,36 @@ class ImaginationRule(_Table):
         return self
 
 
+class ObjectivesRule(_Table):
+    """The agent with objectives (learn/objectives/): trained on designs drawn at random, for any design.
+
+    The nested agent learns first, from objectives drawn at random, until it has had ``nested_updates``. Then the main
+    agent learns, for the training's episodes: a design is one of them.
+    """
+
+    largest: Annotated[int, Field(ge=SMALLEST_SIZE, le=LARGEST_SIZE)] = Field(
+        description="cells a side of the largest arena that is trained in; the networks play in arenas of any size"
+    )
+    most_blocks: Count = Field(description="the most blocks of a design, but for one in five: as many as fit")
+    nested_arenas: Annotated[int, Field(ge=1, le=MOST_ARENAS)] = Field(
+        description="arenas side by side in which the nested agent learns"
+    )
+    main_arenas: Annotated[int, Field(ge=1, le=MOST_ARENAS)] = Field(description="and the main agent")
+    nested_updates: Count = Field(description="updates of the nested agent, before the main agent begins")
+    updates_a_round: Annotated[int, Field(ge=1, le=MOST_UPDATES_A_STEP)] = Field(
+        description="updates after each round: a step of the nested agent in every arena, or an objective of the main "
+        "agent in each"
+    )
+    step_cost: Probability = Field(description="what a step costs the main agent")
+    highest_epsilon: Probability = Field(description="the main agent's ε has a floor in each arena: from 0 to this")
+    any_start: Probability = Field(
+        description="the share of designs that begin anywhere; the others in the middle of an edge"
+    )
+    hindsight: bool = Field(
+        default=True, description="whether the cell where a block landed instead was the objective, too"
+    )
+
+
 class Preset(_Table):
     """A training's hyper-parameters; ``paper`` is docs/explanation/task.md's table.
 
@@ -159,11 +193,11 @@ class Preset(_Table):
         description='the network\'s input: "scaled" numbers, "one-hot" inputs for each value of x, y, b and a_M, or '
         '"cell" inputs for each cell (x, y) and for each value of b and a_M',
     )
-    states: Literal["numbers", "image", "screen"] = Field(
+    states: Literal["numbers", "image", "screen", "objectives"] = Field(
         default="numbers",
         description='what the agent sees: "numbers" x, y, b and a_M; an "image" of the arena from above, as planes of '
-        'bytes; or the game\'s window itself, the "screen", as its last four pictures in 84 x 84 greys. All but '
-        "numbers need the torch engine, and the screen a backend with a window",
+        'bytes; the game\'s window itself, the "screen", as its last four pictures in 84 x 84 greys; or "objectives", '
+        "and what stands around them. All but numbers need the torch engine, and the screen a backend with a window",
     )
     engine: Literal["compiled", "torch"] = Field(
         default="compiled",
@@ -174,8 +208,9 @@ class Preset(_Table):
     )
     network: str = Field(
         default="mlp",
-        description='"mlp" has dense layers alone, with tanh (paper); "cnn" convolutions before them, for images; or '
-        'your own, "my_module:make", where make(shape, actions) gives a torch module without buffers',
+        description='"mlp" has dense layers alone, with tanh (paper); "cnn" convolutions before them, for images; '
+        '"reach" is for objectives; or your own, "my_module:make", where make(shape, actions) gives a torch module '
+        "without buffers",
     )
     updates_a_step: Annotated[int, Field(ge=1, le=MOST_UPDATES_A_STEP)] = Field(
         default=1, description="updates after each step"
@@ -190,6 +225,7 @@ class Preset(_Table):
     prioritized: Prioritized | None = None
     main: MainUpdates | None = None
     imagination: ImaginationRule | None = None
+    objectives: ObjectivesRule | None = None
 
     @property
     def engine_choice(self) -> EngineChoice:
@@ -213,7 +249,9 @@ class Preset(_Table):
             ) from error
 
     def for_main(self) -> "Preset":
-        """Return the main agent's, which may begin to learn earlier."""
+        """Return the main agent's, which may begin to learn earlier, and with objectives has another network."""
+        if self.objectives:
+            return self.model_copy(update={"network": ORDER})
         if self.main is None:
             return self
         update = self.update.model_copy(update={"learning_starts": self.main.learning_starts})
@@ -245,6 +283,10 @@ class Preset(_Table):
             raise ValueError("[imagination] has its own replay and lessons: leave out [prioritized] and [main]")
         if self.imagination and self.update.learning_starts > MOST_BEFORE_PRACTICE:
             raise ValueError(f"[imagination] takes an [update] learning_starts of at most {MOST_BEFORE_PRACTICE:,}")
+        if (self.objectives is not None) != (self.states == OBJECTIVES):
+            raise ValueError('[objectives] goes with states "objectives"')
+        if self.objectives and (self.prioritized or self.main or self.imitation or not self.explore_nested):
+            raise ValueError("[objectives] has its own lessons: it takes [explore_main] and [explore_nested] alone")
         if self.imitation and not self.excursions:
             raise ValueError("[imitation] needs a best episode: add [excursions], or leave it out")
         if self.imitation and self.imitation.batch > self.update.batch:

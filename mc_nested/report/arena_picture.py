@@ -10,7 +10,7 @@ import numpy as np
 from PIL import Image, ImageDraw, ImageFont, ImageOps
 
 from mc_nested.arena.action import Cell
-from mc_nested.arena.drawing import COLOURS, Colour, Picture, draw_picture
+from mc_nested.arena.drawing import COLOURS, Colour, Picture, draw_objective, draw_picture
 from mc_nested.arena.scenario import Scenario
 
 Size = tuple[int, int]
@@ -45,7 +45,7 @@ WINDOW = "the window; grey: the chat's place"
 class Moment:
     """A moment of an episode: the agent's cell, the cells that hold a block, the steps so far, and the material.
 
-    ``score`` is r_M if the episode ended now.
+    ``score`` is r_M if the episode ended now; ``objective`` the cell that the agent is after, if it has one.
     """
 
     cell: Cell
@@ -53,12 +53,15 @@ class Moment:
     steps: int
     material: int
     score: float
+    objective: Cell | None = None
 
 
 def draw_moment(scenario: Scenario, moment: Moment, arena_px: int = ARENA_PX) -> Picture:
     """Draw the arena from above, (height, width, 3), below the design's name, the step, the blocks and the score."""
     paper = np.full((arena_px + CAPTION + MARGIN, arena_px + 2 * MARGIN, 3), PAPER, dtype=np.uint8)
     arena = draw_picture(scenario, moment.cell, moment.placed, arena_px // scenario.size)
+    if moment.objective is not None:
+        draw_objective(arena, scenario.size, moment.objective, arena_px // scenario.size)
     unused = (arena_px - len(arena)) // 2
     top, left = CAPTION + unused, MARGIN + unused
     paper[top : top + len(arena), left : left + len(arena)] = arena

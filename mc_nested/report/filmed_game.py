@@ -51,6 +51,8 @@ class FilmedGame:
         self._steps, self._material = 0, 0
         self._began = 0.0
         self._box: Size | None = None
+        self.objective: Cell | None = None
+        """The cell that the agent is after from now on in this episode, if it has one: the film frames it."""
 
     @property
     def connection(self) -> object:
@@ -71,6 +73,7 @@ class FilmedGame:
         if not self._film.is_empty:
             self._film.begin_anew()
         self._placed, self._steps, self._material, self._box = set(), 0, material, None
+        self.objective = None
         self._tally.begin(THE_ARENA, np.array([material]))
         self._began = self._window.now() if self._window else 0.0
         self._show(cell)
@@ -85,7 +88,7 @@ class FilmedGame:
         if outcome.placed is not None:
             if len(self._placed) < self._scenario.blocks:  # what is placed after the episode's end earns nothing
                 x, y = outcome.placed
-                self._tally.lay(THE_ARENA, self._tally.pays(np.array([x]), np.array([y])))
+                self._tally.lay(THE_ARENA, np.array([x]), np.array([y]))
             self._placed.add(outcome.placed)
         self._show(outcome.cell)
         return outcome
@@ -94,7 +97,7 @@ class FilmedGame:
         simulated_s = FIRST_S + (self._steps - 1) * STEP_S if self._steps else 0.0
         at = self._window.now() - self._began if self._window else simulated_s
         score = float(self._tally.total(THE_ARENA)[0])
-        moment = Moment(cell, self._placed, self._steps, self._material, score)
+        moment = Moment(cell, self._placed, self._steps, self._material, score, self.objective)
         picture = draw_moment(self._scenario, moment, self._arena_px)
         if self._window:
             window = self._window.picture()

@@ -9,12 +9,16 @@ from mc_nested.arena.action import Cell
 from mc_nested.arena.drawing import AGENT, BUILT, FREE, MISSING, PARTS, WRONG, kind_of
 from mc_nested.arena.scenario import Scenario
 
+OBJECTIVE, OBJECTIVE_NAME = "@", "next"
+"""The cell that the agent is after, while nothing is there."""
+
 STYLES = {
     AGENT: "bold white on red",
     BUILT: "black on bright_white",
     WRONG: "black on yellow",
     MISSING: "cyan",
     FREE: "bright_black",
+    OBJECTIVE: "bold red",
 }
 
 PART_STYLES = ("cyan", "magenta", "green", "yellow")
@@ -23,17 +27,22 @@ PART_STYLES = ("cyan", "magenta", "green", "yellow")
 NAMES = {AGENT: "the agent", BUILT: "built", WRONG: "off the design", MISSING: "still to build"}
 
 
-def arena_view(scenario: Scenario, agent: Cell | None, placed: Collection[Cell]) -> Group:
+def arena_view(
+    scenario: Scenario, agent: Cell | None, placed: Collection[Cell], objective: Cell | None = None
+) -> Group:
     """Return the arena from above, the far edge on top, and what each sign means."""
     rows = []
     for y in reversed(range(scenario.size)):
         row = Text("  ")
         for x in range(scenario.size):
             kind = kind_of(scenario, agent, placed, (x, y))
+            if (x, y) == objective and kind not in (AGENT, BUILT, WRONG):
+                kind = OBJECTIVE
             row.append(f"{kind} ", style=style_of(kind))
         rows.append(row)
     legend = Text("  ")
-    for kind, name in named_signs(len(scenario.parts)).items():
+    named = named_signs(len(scenario.parts)) | ({} if objective is None else {OBJECTIVE: OBJECTIVE_NAME})
+    for kind, name in named.items():
         legend.append(f" {kind} ", style=style_of(kind))
         legend.append(f" {name}  ", style="default")
     return Group(*rows, legend)

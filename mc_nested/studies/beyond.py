@@ -1,10 +1,11 @@
 """What the paper says it could do and didn't try: images, several main actions, many of them, cooperation."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
 import numpy as np
+from matplotlib.figure import Figure
 
 from mc_nested.arena.cooperative.team import MOST_BUILDERS
 from mc_nested.arena.scenario import Material, Scenario
@@ -14,7 +15,7 @@ from mc_nested.learn.agents import AGENT_SPECS
 from mc_nested.learn.builders import NETWORKS, Networks
 from mc_nested.learn.preset import Preset, load_preset
 from mc_nested.studies.arm import Arm
-from mc_nested.studies.beyond_figure import beyond_figure
+from mc_nested.studies.beyond_figure import beyond_figure, objectives_figure
 from mc_nested.studies.claim_text import claim_section, method
 from mc_nested.studies.claims.arm_results import ArmResults, Arms, arm_results
 from mc_nested.studies.claims.beyond import equal_budget, judge_beyond, of_topic
@@ -79,7 +80,8 @@ def arms(options: StudyOptions) -> list[Arm]:
     ]
 
 
-def _arm(topic: str, name: str, preset: Preset, scenarios: Sequence[Scenario], trials: int, **more: Any) -> Arm:
+def arm_of(topic: str, name: str, preset: Preset, scenarios: Sequence[Scenario], trials: int, **more: Any) -> Arm:
+    """Return an arm of a topic; ``more`` are further fields of it."""
     labels = {"topic": topic, "agent": name}
     return Arm(f"{topic}: {name}", preset, scenarios, trials, labels=labels, together=TOGETHER, **more)
 
@@ -88,7 +90,7 @@ def _images(image: Preset, paper: Preset, trials: int, few: int) -> list[Arm]:
     """Return images, and beside them numbered states: the preset paper, exploring as the preset image here."""
     numbers = paper.model_copy(update={"explore_main": image.explore_main, "explore_nested": image.explore_nested})
     return [
-        _arm("images", name, preset, [load_scenario(design)], own, preset_name=preset_name, stop_at_optimum=True)
+        arm_of("images", name, preset, [load_scenario(design)], own, preset_name=preset_name, stop_at_optimum=True)
         for design in paper_scenarios()
         for own in [trials if design == "line" else few]
         for name, preset_name, preset in (("images", "image", image), ("numbers", "paper", numbers))
@@ -98,14 +100,14 @@ def _images(image: Preset, paper: Preset, trials: int, few: int) -> list[Arm]:
 def _parts(paper: Preset, tuned: Preset, trials: int) -> list[Arm]:
     """Return the paper's agents on the flag, and the nested one with settings that solve it."""
     flag = [load_scenario("flag")]
-    solved = _arm("parts", TUNED, tuned, flag, trials, preset_name="tuned", stop_at_optimum=True)
-    return [solved, *(_arm("parts", agent, paper, flag, trials, agent=agent) for agent in AGENT_SPECS)]
+    solved = arm_of("parts", TUNED, tuned, flag, trials, preset_name="tuned", stop_at_optimum=True)
+    return [solved, *(arm_of("parts", agent, paper, flag, trials, agent=agent) for agent in AGENT_SPECS)]
 
 
 def _materials(paper: Preset, trials: int) -> list[Arm]:
     line = load_scenario("line")
     return [
-        _arm("materials", agent, paper, [with_materials(line, count)], trials, agent=agent)
+        arm_of("materials", agent, paper, [with_materials(line, count)], trials, agent=agent)
         for count in COUNTS
         for agent in AGENT_SPECS
     ]
@@ -115,7 +117,7 @@ def _cooperation(paper: Preset, trials: int) -> list[Arm]:
     """Return builders on the line: one alone, and two to four, learning in each way."""
     line, preset = [load_scenario("line")], with_episodes(paper, TEAM_EPISODES)
     return [
-        _arm("cooperation", team_name(count, kind), preset, line, trials, builders=JobBuilders(count, kind))
+        arm_of("cooperation", team_name(count, kind), preset, line, trials, builders=JobBuilders(count, kind))
         for count, kind in TEAMS
     ]
 
@@ -140,15 +142,16 @@ TOPICS = {
     "parts": "Several main actions",
     "materials": "Many main actions",
     "cooperation": "Cooperating nested agents",
+    "objectives": "Many main actions, as objectives",
 }
 
-LETTERS = {"images": "j", "parts": "k", "materials": "l", "cooperation": "m"}
+LETTERS = {"images": "j", "parts": "k", "materials": "l", "cooperation": "m", "objectives": "n"}
 """What the letters of a topic's claims begin with."""
 
 ABOUT = {
     "images": "The nested agent sees the arena from above, as planes, through a convolution (preset `image`). Beside "
     "it the preset `paper`, which sees numbers, and explores for as long as `image` does. A trial ends at its first "
-    "greedy episode at the optimum.",
+    'greedy episode at the optimum. The states "screen" are not among these: they need a game\'s window.',
     "parts": "The main agent chooses a material before each of the design's parts. The arm `nested, tuned` ends each "
     "trial at its first greedy episode at the optimum; the other agents have the preset `paper`.",
     "materials": "One design, with 2, 4 and 8 materials, whose p are evenly spaced between the paper's two: the "
@@ -158,13 +161,19 @@ ABOUT = {
     "cooperation": "Several builders in one arena, preset `paper`, with half its episodes. shared: one nested agent "
     "plays all of them; own: each has one; single: independent single agents. An episode of several builders is "
     "shorter, since they share the blocks.",
+    "objectives": "One design, and the arena in 2, 4, 16, 64 and 225 regions: halves, quarters, 4 x 4, 8 x 8, cells. "
+    "The main agent chooses a region to build in, again after each block and after some steps without "
+    "one. r_N is 1 for a block on the design in that region, r_M is the blocks on the design. The single agent is paid "
+    "r_M, as ever: a choice costs it a step and brings nothing, but the first action of an episode has to be one. "
+    "Preset `paper`, with an input for each value of x, y, b and a_M. Every agent does one update for each step that "
+    "it trains, and its main agent one for each choice. Below, scores within what every trial of all fifteen had spent "
+    "in the end; the claims compare two agents each, within what both had spent.",
 }
 
 MORE = """\
 - The trials that would decide a claim are so many that its tests would decide it with a power of {power:g}, if means,
   spreads and shares were what these trials had: all lines shown, or the opposite of one, at α divided by the number of
-  lines. An estimate from few trials is rough, and so is this.
-- The states "screen" are not among these: they need a game's window."""
+  lines. An estimate from few trials is rough, and so is this."""
 
 
 COLUMNS = ("topic", "scenario", "agent", "trial", "episode", "score", "material", "steps", "trained_steps", "updates")
@@ -172,29 +181,30 @@ COLUMNS = ("topic", "scenario", "agent", "trial", "episode", "score", "material"
 
 def report(config: StudyConfig, trials: Sequence[Trial]) -> Report:
     """Report what was trained, the claims with their verdicts, and how many trials would decide each."""
-    return report_on(arm_results(trials), config.trials, config.seed)
+    return report_on(config.study, arm_results(trials), config.trials, config.seed)
 
 
-def report_on(arms: Arms, trials: int, seed: int) -> Report:
-    """Return the report on these arms. The same results give the same report, but for the column of seconds."""
-    claims = judge_beyond(arms)
+def report_on(study: str, arms: Arms, trials: int, seed: int) -> Report:
+    """Return that study's report on these arms; the same of the same results, but for the column of seconds."""
+    claims, (title, shows, draw) = judge_beyond(arms), REPORTS[study]
     text = [
-        "# Beyond the paper: what it says it could do, tried",
+        f"# {title}",
         f"Seed {seed}: {number_of_trials(trials)} of each agent, where the tables don't say otherwise.",
-        "![Images, parts, many main actions and cooperation](beyond.png)",
+        f"![{shows}]({study}.png)",
         _verdicts(claims),
     ]
-    for topic, title in TOPICS.items():
-        own = of_topic(arms, topic)
-        text += [f"## {title}", ABOUT[topic], *_too_few(own), _scores(own), *_more(arms, topic)]
+    for topic, heading in TOPICS.items():
+        if not (own := of_topic(arms, topic)):
+            continue
+        text += [f"## {heading}", ABOUT[topic], *_too_few(own), _scores(own), *_more(own, topic)]
         text += [claim_section(each) for each in claims if each.claim.letter.startswith(LETTERS[topic])]
     text += ["## How it was computed", method(claims, trials, keeps_best=False), MORE.format(power=POWER)]
     every = [trial for each in arms.values() for trial in each.trials]
     rows = [(f"({each.claim.letter})", each.claim.title, each.words, in_words(each)) for each in claims]
     return Report(
         text=text,
-        figure=beyond_figure(arms),
-        tables={"beyond.csv": greedy_table(every, COLUMNS)},
+        figure=draw(arms),
+        tables={f"{study}.csv": greedy_table(every, COLUMNS)},
         found={"claims": [{**found_of(each), "trials": trials_to_decide(each)} for each in claims]},
         shown=Table(("", "what the paper says it could do", "verdict", "trials to decide it"), rows),
     )
@@ -269,11 +279,10 @@ def _reached(arm: ArmResults) -> tuple[str, str, str]:
     return f"{len(reached)} of {len(arm.trials)}", share, f"{np.median(reached):g}" if reached else NONE
 
 
-def _more(arms: Arms, topic: str) -> list[str]:
+def _more(own: Sequence[ArmResults], topic: str) -> list[str]:
     """Return a topic's further tables: of many main actions, scores at equal steps and updates, and costs."""
-    if topic != "materials":
+    if topic not in ("materials", "objectives"):
         return []
-    own = of_topic(arms, topic)
     steps, updates = equal_budget(own, "steps"), equal_budget(own, "updates")
     rows = [
         (
@@ -292,7 +301,7 @@ def _more(arms: Arms, topic: str) -> list[str]:
         for arm in own
     ]
     header = (
-        "materials",
+        "main actions",
         "agent",
         f"last ten until {steps:,} steps",
         "95 % interval",
@@ -312,6 +321,20 @@ def _more(arms: Arms, topic: str) -> list[str]:
     )
     return [f"{markdown(header, rows)}\n\n{early}"]
 
+
+REPORTS: Mapping[str, tuple[str, str, Callable[[Arms], Figure]]] = {
+    "beyond": (
+        "Beyond the paper: what it says it could do, tried",
+        "Images, parts, many main actions and cooperation",
+        beyond_figure,
+    ),
+    "objectives": (
+        "Many main actions: objectives",
+        "Scores and parameters of three agents with 2 to 225 main actions",
+        objectives_figure,
+    ),
+}
+"""Of each study that is reported like this: its heading, what its figure shows, and what draws it."""
 
 STUDY = Study(
     name="beyond",

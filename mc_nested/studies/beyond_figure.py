@@ -1,7 +1,10 @@
-"""beyond.png: a panel for each design seen as an image, and one each for parts, many main actions and cooperation."""
+"""beyond.png: a panel for each design seen as an image, and one each for parts, many main actions and cooperation.
+
+objectives.png: scores and parameters against the number of main actions.
+"""
 
 from collections.abc import Mapping, Sequence
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -40,14 +43,37 @@ def beyond_figure(arms: Arms) -> Figure:
         _draw_curves(axes, [arm for arm in images if arm.scenario == design], f"{design}: images and numbers")
     parts = of_topic(arms, "parts")
     _draw_curves(panels[3], parts, f"{parts[0].scenario}: a material for each part")
-    _draw_materials(panels[4], arms)
+    _draw_main_actions(panels[4], of_topic(arms, "materials"), "materials")
     _draw_teams(panels[5], of_topic(arms, "cooperation"))
     for at, axes in enumerate(panels):
-        axes.grid(alpha=0.2)
-        axes.spines[["top", "right"]].set_visible(False)
-        corner = "lower right" if at < CURVE_PANELS else "lower left"  # curves rise to the right, means fall
-        axes.legend(frameon=False, fontsize=8, loc=corner)
+        _finish(axes, "lower right" if at < CURVE_PANELS else "lower left")  # curves rise to the right, means fall
     return figure
+
+
+def objectives_figure(arms: Arms) -> Figure:
+    """Draw it; the same results give the same bytes."""
+    own = of_topic(arms, "objectives")
+    figure = Figure(figsize=(11.0, 4.4), dpi=140, layout="constrained")
+    scores, parameters = figure.subplots(1, 2)
+    _draw_main_actions(scores, own, "objectives")
+    for agent in CURVES:
+        of_agent = [arm for arm in own if arm.name == agent]
+        needed = [arm.trials[0].parameters for arm in of_agent]
+        parameters.plot(
+            [arm.materials for arm in of_agent], needed, marker="o", markersize=4, label=agent, **LOOKS[agent]
+        )
+    _mark_main_actions(parameters, own)
+    parameters.set_yscale("log")
+    parameters.set(title="what a trial trains", xlabel="objectives", ylabel="parameters of all its networks")
+    _finish(scores, "lower left")
+    _finish(parameters, "upper left")
+    return figure
+
+
+def _finish(axes: Axes, corner: Literal["lower left", "lower right", "upper left"]) -> None:
+    axes.grid(alpha=0.2)
+    axes.spines[["top", "right"]].set_visible(False)
+    axes.legend(frameon=False, fontsize=8, loc=corner)
 
 
 def _draw_curves(axes: Axes, arms: Sequence[ArmResults], title: str) -> None:
@@ -70,18 +96,21 @@ def _draw_curves(axes: Axes, arms: Sequence[ArmResults], title: str) -> None:
     axes.set(title=title, xlabel="training episodes", ylabel="score of a greedy episode")
 
 
-def _draw_materials(axes: Axes, arms: Arms) -> None:
-    own = of_topic(arms, "materials")
+def _draw_main_actions(axes: Axes, own: Sequence[ArmResults], what: str) -> None:
     budget, optimum = equal_budget(own, "steps"), own[0].optimum
     axes.axhline(own[0].optimum, zorder=1, **OPTIMUM)
     for number, agent in enumerate(CURVES):
         of_agent = [arm for arm in own if arm.name == agent]
         counts = [arm.materials * 1.04 ** (number - 1) for arm in of_agent]
         _draw_means(axes, counts, [arm.within(budget, "steps") for arm in of_agent], optimum, agent, agent)
+    _mark_main_actions(axes, own)
+    axes.set(title=f"main actions, after {budget:,} steps", xlabel=what, ylabel="mean of the last ten")
+
+
+def _mark_main_actions(axes: Axes, own: Sequence[ArmResults]) -> None:
     axes.set_xscale("log", base=2)
     counts = sorted({arm.materials for arm in own})
     axes.set_xticks(counts, [str(count) for count in counts])
-    axes.set(title=f"main actions, after {budget:,} steps", xlabel="materials", ylabel="mean of the last ten")
 
 
 def _draw_teams(axes: Axes, own: Sequence[ArmResults]) -> None:

@@ -27,8 +27,8 @@ METHOD = """\
   from these. Where half of the trials or more are at the optimum there is no interval of the mean: they are counted.
   Intervals of shares are exact. None is corrected for being one of many: an interval without 0 can occur beside an
   undecided test. An interval without width says that no trial differed, not that no other would.
-- The main agent sees the same state before every episode. So it is a bandit with an arm for each material, and once its
-  ε is small, nested and hierarchical differ by one nearly constant input of the nested agent.
+- A main agent that chooses once an episode sees the same state each time. So it is a bandit with an arm for each
+  material, and once its ε is small, nested and hierarchical differ by one nearly constant input of the nested agent.
 - Greedy episodes don't vary by chance: a final score is one episode. What varies is the training, so the unit is the
   trial.
 - {kept}

@@ -108,6 +108,6 @@ def builders_score(scenario: Scenario) -> float:
         cell = moved(cell, action, placed, scenario.size)
         if action in PLACES:
             target = front_of(cell)
-            tally.lay(THE_ARENA, tally.pays(np.array([target[0]]), np.array([target[1]])))
+            tally.lay(THE_ARENA, np.array([target[0]]), np.array([target[1]]))
             placed.add(target)
     return float(tally.total(THE_ARENA)[0])

@@ -20,7 +20,7 @@ from mc_nested.studies.config import StudyConfig
 from mc_nested.studies.table import Table
 from mc_nested.studies.trial import Outcomes, Trial, trials_of
 
-SHIPPED = ("reproduce", "robustness", "beyond", "sweep", "ablation", "benchmark")
+SHIPPED = ("reproduce", "robustness", "beyond", "objectives", "sweep", "ablation", "benchmark")
 """The studies by name: each is declared in the module of that name, as STUDY."""
 
 

@@ -78,6 +78,8 @@ def _signs(arena: ArenaSeen, trials: int) -> dict[Cell, tuple[str, str]]:
             signs[cell] = AGENT if trials == 1 else many, AGENT_STYLE
         elif cell in stands:
             signs[cell] = _block_sign(stands[cell], trials, cell in design)
+        elif cell == arena.objective:
+            signs[cell] = terminal.OBJECTIVE, terminal.STYLES[terminal.OBJECTIVE]
         else:
             signs[cell] = _free_sign(arena, cell, cell in design)
     return signs
@@ -122,6 +124,8 @@ def _legend(arena: ArenaSeen, trials: int, width: int) -> list[Text]:
     else:
         named = terminal.named_signs(len(arena.parts)).items()
         entries += [(sign, terminal.style_of(sign), name) for sign, name in named if sign in MISSING + PARTS]
+    if arena.objective:
+        entries.append((terminal.OBJECTIVE, terminal.STYLES[terminal.OBJECTIVE], terminal.OBJECTIVE_NAME))
     lines: list[Text] = []
     for sign, style, name in entries:
         entry = Text.assemble((sign, style), f" {name}")

@@ -32,7 +32,7 @@ TO_NEAR = (Action.B, Action.RD, Action.L, Action.LD, Action.RD)
 
 @st.composite
 def scenarios_with_parts(draw: st.DrawFn, size: int = 6) -> Scenario:
-    """Draw a design of a few cells, in one to three parts that can be built in order, and two or three materials."""
+    """Draw a design of a few cells, in one to three parts in an order that can be built, and materials or regions."""
     cells = st.tuples(st.integers(0, size - 1), st.integers(1, size - 1))
     design = draw(st.lists(cells, min_size=1, max_size=7, unique=True))
     ends = sorted(draw(st.sets(st.integers(1, len(design)), max_size=2)) | {len(design)})
@@ -45,4 +45,4 @@ def scenarios_with_parts(draw: st.DrawFn, size: int = 6) -> Scenario:
     scenario = Scenario("any", frozenset(design), start, size * size, materials, size, parts)
     every = draw(st.none() | st.integers(1, 4))
     in_turn = scenario if can_be_built(scenario) else replace(scenario, parts=(Part(scenario.design, parts[0].worth),))
-    return replace(in_turn, choose_every=every)
+    return replace(in_turn, choose_every=every, regions=draw(st.booleans()))

@@ -1,14 +1,16 @@
 """The scripted builder: every design to its optimum, by the rules, without wasting a block."""
 
+from dataclasses import replace
+
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 from mc_nested.arena.action import Cell
-from mc_nested.arena.builder import build, build_with_materials
+from mc_nested.arena.builder import build, build_with_materials, out_of_reach, within_reach
 from mc_nested.arena.env import step_in
 from mc_nested.arena.rules import landing, moved
-from mc_nested.arena.scenario import LARGEST_SIZE, SMALLEST_SIZE, Material, Scenario
+from mc_nested.arena.scenario import LARGEST_SIZE, SMALLEST_SIZE, Material, Part, Scenario
 from mc_nested.arena.scenario_file import load_scenario, shipped_scenarios
 from sim.grid import arena_env
 
@@ -55,3 +57,22 @@ def test_any_design_off_the_near_edge_is_built_from_anywhere(scenario: Scenario)
         if block is not None:
             placed.add(block)
     assert placed == scenario.design
+
+
+DRAWN = Scenario("drawn", frozenset({(1, 0), (1, 1), (3, 4)}), (2, 2), 20, (Material("stone", 0.0, "stone"),), 5)
+
+
+def test_cells_of_the_nearest_row_are_out_of_reach_and_no_others() -> None:
+    assert out_of_reach(DRAWN) == {(1, 0)}
+    assert within_reach(DRAWN) == replace(DRAWN, design=frozenset({(1, 1), (3, 4)}))
+
+
+def test_a_part_keeps_its_cells_in_reach_and_is_dropped_without_any() -> None:
+    parts = tuple(Part(frozenset(cells), (0.0,)) for cells in ([(1, 0)], [(3, 4), (2, 0)], [(1, 1)]))
+    drawn = replace(DRAWN, design=DRAWN.design | {(2, 0)}, parts=parts)
+    assert [part.cells for part in within_reach(drawn).parts] == [{(3, 4)}, {(1, 1)}]
+
+
+@given(scenarios())
+def test_all_of_any_design_off_the_near_edge_is_in_reach(scenario: Scenario) -> None:
+    assert within_reach(scenario) == scenario

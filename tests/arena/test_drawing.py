@@ -18,6 +18,7 @@ from mc_nested.arena.drawing import (
     GROUND,
     TO_BUILD,
     Picture,
+    draw_objective,
     draw_picture,
     draw_text,
     kind_of,
@@ -134,3 +135,13 @@ def test_each_part_of_a_design_has_its_own_colour_whether_built_or_not() -> None
     assert [cell[10, 10].tolist() for cell in (far, near)] == [list(colour) for colour in TO_BUILD[:2]]
     built = [cell_of(picture, *cell, 20, 5)[1, 1].tolist() for cell in ((1, 3), (3, 2))]
     assert built == [list(colour) for colour in DESIGN[:2]]
+
+
+def test_an_objective_is_framed_in_its_cell_alone() -> None:
+    picture, without = draw_picture(PAIR, None, {(7, 14)}, 32), draw_picture(PAIR, None, {(7, 14)}, 32)
+    draw_objective(picture, PAIR.size, (6, 14), 32)
+    cell = cell_of(picture, 6, 14, 32)
+    assert [cell[at].tolist() for at in ((2, 2), (30, 16))] == [list(AGENT_BODY)] * 2
+    assert cell[16, 16].tolist() == list(TO_BUILD[0])
+    changed = np.argwhere((picture != without).any(axis=2)) // 32
+    assert {(int(row), int(column)) for row, column in changed} == {(0, 6)}

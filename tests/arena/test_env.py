@@ -77,6 +77,15 @@ def test_the_last_step_brings_the_main_agents_reward(material: str, score: float
     assert env.placed == env.scenario.design
 
 
+def test_the_score_so_far_is_what_the_episode_would_bring_if_it_ended(begun: ArenaEnv) -> None:
+    assert begun.score == 10.0
+    begun.step(Action.B)
+    begun.step(Action.BD)
+    assert begun.score == 10.0  # a block off the design
+    begun.step(Action.BD)
+    assert begun.score == 11.0
+
+
 def test_the_step_limit_truncates_the_episode_and_gives_the_score(begun: ArenaEnv) -> None:
     for _ in range(59):
         assert begun.step(Action.L)[2:4] == (False, False)

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from mc_nested.arena.design import KINDS, SCATTERED, is_buildable, kind_of_design
-from mc_nested.arena.random_designs import FEWEST_BLOCKS, MOST_BLOCKS, draw_design, random_scenario
+from mc_nested.arena.random_designs import FEW_BLOCKS, draw_design, random_scenario
 from mc_nested.arena.scenario_file import load_scenario, table_of
 
 LINE = load_scenario("line")
@@ -33,7 +33,7 @@ def test_kinds_have_equal_shares_and_every_design_is_of_its_kind() -> None:
 
 def test_every_number_of_blocks_is_drawn_and_every_design_can_be_built() -> None:
     many = [random_scenario(5, number, LINE) for number in range(300)]
-    assert {scenario.blocks for scenario in many} == set(range(FEWEST_BLOCKS, MOST_BLOCKS + 1))
+    assert {scenario.blocks for scenario in many} == set(range(FEW_BLOCKS[0], FEW_BLOCKS[1] + 1))
     assert all(is_buildable(scenario) for scenario in many)
     assert all(scenario.start == LINE.start and scenario.materials == LINE.materials for scenario in many)
     columns = {x for scenario in many for x, _ in scenario.design}

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from mc_nested.arena.action import Cell
-from mc_nested.arena.scenario import Material, Part, Scenario, main_return
+from mc_nested.arena.scenario import Material, Part, Scenario, main_return, regions_of
 from mc_nested.errors import ScenarioError
 from tests.arena.made_parts import FAR, NEAR, STRIPES
 
@@ -31,6 +31,35 @@ def test_a_material_is_found_by_its_name_and_an_unknown_one_is_refused() -> None
     assert BAR.material_index("clay") == 2
     with pytest.raises(ScenarioError, match="has no material 'gold': choose one of wood, stone, clay"):
         BAR.material_index("gold")
+
+
+@pytest.mark.parametrize(
+    ("count", "rows"),
+    [
+        (2, ["00011", "00011", "00011", "00011", "00011"]),
+        (4, ["11133", "11133", "00022", "00022", "00022"]),
+        (3, ["00112", "00112", "00112", "00112", "00112"]),
+        (6, ["11335", "11335", "00224", "00224", "00224"]),
+    ],
+)
+def test_an_arena_of_5_is_divided_into_regions_as_evenly_as_goes(count: int, rows: list[str]) -> None:
+    found = regions_of(5, count)
+    assert ["".join(str(found[x, y]) for x in range(5)) for y in reversed(range(5))] == rows
+
+
+def test_as_many_regions_as_cells_are_the_cells() -> None:
+    assert sorted(regions_of(15, 225).flatten().tolist()) == list(range(225))
+    assert regions_of(15, 225)[0, 14] == 14, "column by column, from the near edge on"
+
+
+def test_64_regions_of_an_arena_of_15_have_1_to_4_cells_each() -> None:
+    _, cells = np.unique(regions_of(15, 64), return_counts=True)
+    assert (len(cells), set(cells.tolist()), cells.sum()) == (64, {1, 2, 4}, 225)
+
+
+def test_more_columns_of_regions_than_of_cells_are_refused() -> None:
+    with pytest.raises(ScenarioError, match="regions: 5 columns of cells can't be 7 of regions"):
+        replace(STRIPES, materials=(STONE,) * 7, parts=(), regions=True)
 
 
 @pytest.mark.parametrize("size", [4, 33])

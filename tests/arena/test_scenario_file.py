@@ -172,6 +172,16 @@ def test_a_cell_on_the_near_edge_is_refused_as_unreachable() -> None:
         parse_scenario(near, "dot.toml")
 
 
+def test_cells_out_of_reach_may_be_drawn_where_some_are_in_reach_and_that_is_asked_for() -> None:
+    near = draw_grid(frozenset({(2, 5), (4, 0)}), 15)
+    drawn = OWN.replace(draw_grid(frozenset({(2, 5)}), 15), near)
+    assert parse_scenario(drawn, "dot.toml", must_reach=False).design == {(2, 5), (4, 0)}
+    one_step = drawn.replace("step_limit = 9", "step_limit = 1")
+    assert parse_scenario(one_step, "dot.toml", must_reach=False).step_limit == 1
+    with pytest.raises(ScenarioError, match=r"cell \(4, 0\) can't be reached"):
+        parse_scenario(drawn.replace(near, draw_grid(frozenset({(4, 0)}), 15)), "dot.toml", must_reach=False)
+
+
 def test_too_few_steps_for_the_blocks_are_refused() -> None:
     tight = OWN.replace("step_limit = 9", "step_limit = 1").replace("..#............", "..##...........")
     with pytest.raises(ScenarioError, match="1 steps can't place 2 blocks: raise it"):
@@ -215,6 +225,12 @@ def test_parts_are_read_in_order_and_materials_they_do_not_name_are_worth_their_
     assert parse_scenario(in_parts(FAR, NEAR), "two.toml").choose_every is None
 
 
+def test_a_table_without_regions_does_not_name_them_so_that_checkpoints_from_before_still_fit() -> None:
+    table = table_of(load_scenario("flag"))
+    assert "regions" not in table.model_dump()
+    assert table.model_copy(update={"regions": True}).model_dump()["regions"] is True
+
+
 @given(scenarios_with_parts())
 def test_a_scenario_with_parts_is_read_back_from_its_table_unchanged(scenario: Scenario) -> None:
     assert scenario_of(table_of(scenario), "here") == scenario
@@ -230,6 +246,7 @@ def test_a_scenario_with_parts_is_read_back_from_its_table_unchanged(scenario: S
         (in_parts(FAR, NEAR).replace("ice = 0", "ice = nan", 1), "parts.0.worth.ice"),
         (in_parts(FAR, NEAR, more="choose_every = 0"), "choose_every"),
         (in_parts(more="choose_every = 4"), "choose_every: goes with [[parts]]"),
+        (in_parts(more="regions = true"), "regions: goes with [[parts]]"),
         (in_parts(FAR) + "[[parts]]\ncells = '''#'''", "parts: part 2: 1 rows, and the design has 5: draw as many"),
         (in_parts(FAR, NEAR).replace("cells = '''\n.....", "cells = '''\n..?..", 1), "parts: part 1: row 1 is '..?..'"),
     ],

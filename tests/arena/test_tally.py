@@ -11,8 +11,9 @@ from hypothesis import strategies as st
 from mc_nested.arena.action import Action
 from mc_nested.arena.builder import build, build_with_materials
 from mc_nested.arena.env import ArenaEnv
-from mc_nested.arena.scenario import Part, Scenario
+from mc_nested.arena.scenario import Material, Part, Scenario
 from mc_nested.arena.scenario_file import load_scenario
+from mc_nested.arena.single import SingleAgentVectorEnv
 from mc_nested.arena.vector import NO_ACTION, ArenaVectorEnv
 from sim.grid import GridVectorEnv, arena_env
 from tests.arena.made_parts import STONE, STRIPES, TO_FAR, TO_NEAR, WOOD, scenarios_with_parts
@@ -170,6 +171,49 @@ def test_a_part_that_would_begin_at_truncation_earns_nothing() -> None:
     assert (first["earned"], last["score"]) == (1 + 5, 2 + 10), (
         "and not what three blocks of stone would cost the second"
     )
+
+
+LEFT, RIGHT = 0, 1
+
+HALVES = replace(
+    STRIPES,
+    materials=(Material("left", 0.0, "stone"), Material("right", 0.0, "stone")),
+    parts=(Part(STRIPES.design, (0.0, 0.0)),),
+    choose_every=3,
+    regions=True,
+)
+"""Its right half begins at x = 3: of the design, only (3, 2) lies there."""
+
+
+def test_a_block_in_the_chosen_region_pays_the_nested_agent_and_one_elsewhere_the_main_agent_alone() -> None:
+    env = begun(HALVES, "left")
+    steps = [
+        env.step(taken) for taken in ((Action.FD, LEFT), (Action.RD, RIGHT), (Action.BD, RIGHT), (Action.RD, RIGHT))
+    ]
+    assert env.placed == {(1, 3), (2, 3), (2, 2), (3, 2)}
+    assert [step[1] for step in steps] == [1.0, 0.0, 0.0, 1.0]
+    assert [step[4]["earned"] for step in steps] == [1.0, 2.0, 3.0, 4.0]
+
+
+def test_a_block_beside_the_design_pays_nobody_in_its_region() -> None:
+    env = begun(HALVES, "left")
+    _, reward, *_, info = env.step((Action.LD, LEFT))
+    assert env.placed == {(0, 2)}
+    assert (reward, info["earned"]) == (0.0, 0.0)
+
+
+def test_the_main_agent_chooses_a_region_after_each_block_and_after_some_steps_without_one() -> None:
+    env = begun(HALVES, "left")
+    actions = (Action.B, Action.FD, Action.L, Action.R, Action.B, Action.F)
+    assert [env.step((action, LEFT))[4]["chooses"] for action in actions] == [False, True, False, False, True, False]
+
+
+def test_the_single_agent_takes_a_region_in_hand_by_an_action_and_is_paid_wherever_a_block_is_on_the_design() -> None:
+    env = SingleAgentVectorEnv(GridVectorEnv([HALVES]), [HALVES])
+    env.reset()
+    steps = [env.step(np.array([action])) for action in (LEFT, 2 + Action.FD, RIGHT, 2 + Action.BD)]
+    assert [int(step[0][0, -1]) for step in steps] == [LEFT + 1, LEFT + 1, RIGHT + 1, RIGHT + 1]
+    assert [float(step[1][0]) for step in steps] == [0.0, 1.0, 0.0, 1.0], "(1, 2) is in the left half"
 
 
 def test_arenas_without_parts_ignore_a_material_beside_an_action() -> None:

@@ -116,7 +116,17 @@ def test_json_gives_scenario_blocks_material_and_steps(capsys: pytest.CaptureFix
     printed = capsys.readouterr()
     found = json.loads(printed.out)
     assert found.keys() == json_fields(build).keys()
-    assert found == {"scenario": "line", "blocks": 11, "built": 11, "material": "stone", "steps": 13, "film": None}
+    assert found == {
+        "scenario": "line",
+        "blocks": 11,
+        "built": 11,
+        "material": "stone",
+        "steps": 13,
+        "film": None,
+        "score": 21.0,
+        "optimum": 21.0,
+        "unreachable": [],
+    }
     assert printed.err == ""
 
 

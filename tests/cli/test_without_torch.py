@@ -45,6 +45,12 @@ def test_a_training_is_saved_evaluated_and_played_without_torch(tmp_path: Path) 
     assert f"score {score:g} of 21" in played.stdout
 
 
+def test_the_shipped_agent_builds_without_torch() -> None:
+    built = without_torch(COMMAND, "build", "line", "--agent")
+    assert built.returncode == 0, built.stderr
+    assert "built 11 of 11 blocks" in built.stdout
+
+
 def test_the_torch_engine_says_that_torch_is_missing(tmp_path: Path) -> None:
     asked = without_torch(COMMAND, "train", "--engine", "torch", "--episodes", "3", "--out", tmp_path / "run")
     assert asked.returncode == 2

@@ -12,6 +12,7 @@ SIZES = {
     "mc-nested reproduce --beyond": "--trials 1 --episodes 4",
     "mc-nested study robustness": "--trials 1 --episodes 1 --scenario line",
     "mc-nested study beyond": "--trials 1 --episodes 4",
+    "mc-nested study objectives": "--trials 1 --episodes 2",
     "mc-nested study ablation": "--trials 1 --episodes 1 --scenario line",
     "mc-nested study sweep": "--trials 1 --episodes 2 --scenario line",
     "mc-nested study benchmark": "--designs 1 --agents nested --presets model-based",
@@ -73,6 +74,7 @@ What was wrong is in its figures, which are JSON."""
 CALIBRATE = "mc-nested calibrate all --yes"
 
 NEEDS = {
+    "docs/how-to/build-anything.md": (CALIBRATE,),
     "docs/how-to/own-design.md": (CALIBRATE,),
     "docs/how-to/own-learner.md": (CALIBRATE,),
     "docs/how-to/recordings.md": (CALIBRATE,),

@@ -11,6 +11,7 @@ from mc_nested.arena.scenario import Scenario
 from mc_nested.arrays import Arrays, Int64s
 from mc_nested.learn.preset import load_preset
 from mc_nested.learn.trainer import Trainer
+from mc_nested.learn.training import Training
 from sim.grid import GridGame, GridVectorEnv
 
 PAPER = load_preset("paper")
@@ -68,12 +69,12 @@ def copied(arrays: Arrays) -> Arrays:
     return {name: kept.copy() for name, kept in arrays.items()}
 
 
-def saved(trainer: Trainer) -> tuple[Arrays, list[Arrays]]:
+def saved(trainer: Training) -> tuple[Arrays, list[Arrays]]:
     """Return a training as it would be on disk."""
     return copied(trainer.state()), [trainer.journal(None)]
 
 
-def assert_same(one: Trainer, other: Trainer) -> None:
+def assert_same(one: Training, other: Training) -> None:
     """Raise AssertionError unless both trainings came to the same, to the bit."""
     assert one.episode_rows == other.episode_rows
     assert one.evaluation_rows == other.evaluation_rows

@@ -66,6 +66,17 @@ def test_the_film_shows_the_start_and_every_step() -> None:
     assert film.times == [0.0, FIRST_S, FIRST_S + STEP_S, FIRST_S + 2 * STEP_S]
 
 
+def test_the_film_frames_what_the_agent_is_after_until_the_next_episode() -> None:
+    film, game = begun()
+    game.objective = (7, 13)
+    game.act(Action.B)
+    framed = draw_moment(LINE, Moment((7, 13), (), 1, STONE, 10.0, (7, 13)))
+    np.testing.assert_array_equal(film.shown[-1][0], framed)
+    assert (framed != draw_moment(LINE, Moment((7, 13), (), 1, STONE, 10.0))).any()
+    game.reset(STONE)
+    np.testing.assert_array_equal(film.shown[-1][0], draw_moment(LINE, Moment((7, 14), (), 0, STONE, 10.0)))
+
+
 def test_a_film_of_building_eleven_blocks_takes_six_to_ten_seconds() -> None:
     film, game = begun()
     for action in build(LINE):

@@ -29,3 +29,15 @@ def test_a_larger_arena_is_shown_whole() -> None:
         console.print(arena_view(corner, (0, 0), ()))
     lines = [line.rstrip() for line in capture.get().splitlines()]
     assert (lines[0], lines[31]) == ("  " + ". " * 31 + "o", "  ^" + " ." * 31)
+
+
+def test_the_cell_that_is_built_next_has_a_sign_of_its_own_until_something_is_there() -> None:
+    console = Console(width=80, force_terminal=False)
+    line = load_scenario("line")
+    shown = []
+    for placed in ((), {(7, 12)}):
+        with console.capture() as capture:
+            console.print(arena_view(line, (7, 11), placed, (7, 12)))
+        shown.append(capture.get().splitlines())
+    assert [lines[2].split()[7] for lines in shown] == ["@", "#"]
+    assert all("@  next" in lines[15] for lines in shown)

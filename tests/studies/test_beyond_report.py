@@ -14,7 +14,7 @@ from tests.studies.claims.made_arms import whole
 
 
 def write(folder: Path, arms: Arms, trials: int, seed: int) -> None:
-    write_report(folder, STUDY, report_on(arms, trials, seed))
+    write_report(folder, STUDY, report_on("beyond", arms, trials, seed))
 
 
 @pytest.fixture(scope="module")
@@ -50,7 +50,7 @@ def test_arms_that_stop_at_the_optimum_show_no_last_ten_and_few_trials_are_noted
     assert "| flag | nested | 10 | 360 | 15.00 |" in text
     assert text.count("3 trials are too few for any test") == 1
     enough = whole(image_trials=10)
-    assert "too few for any test" not in "\n".join(report_on(enough, 10, 0).text)
+    assert "too few for any test" not in "\n".join(report_on("beyond", enough, 10, 0).text)
 
 
 def test_the_csv_file_has_a_row_for_every_evaluation(written: Path) -> None:

@@ -77,3 +77,10 @@ def test_right_and_wrong_blocks_differ_without_colours_too() -> None:
     assert styles["#"] != styles["x"]
     assert "#" in text.plain
     assert "x" in text.plain
+
+
+def test_the_cell_that_is_built_next_has_a_sign_of_its_own_and_a_legend() -> None:
+    lines = drawn(SMALL.model_copy(update={"objective": (2, 1)}), width=80, height=12)
+    plain = drawn(SMALL, width=80, height=12)
+    assert (lines[4].split(), plain[4].split()) == ([".", "#", "@", "."], [".", "#", "o", "."])
+    assert ("@ next" in " ".join(lines), "@ next" in " ".join(plain)) == (True, False)

@@ -58,9 +58,8 @@ class Engine(Protocol):
     def updates(self) -> Int64s:
         """Updates that each row has had, (rows,)."""
 
-    @property
-    def rule(self) -> UpdateRule:
-        """What an update does."""
+    rule: UpdateRule
+    """What an update does; another learning rate may be given on the way."""
 
     @property
     def form(self) -> NetworkForm:

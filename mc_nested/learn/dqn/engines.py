@@ -51,10 +51,16 @@ def _made_torch_engine(
     return engine.TorchEngine(states, form, lambda: make(shape, states.actions), rule, online, device)
 
 
-NUMBERS, SCREEN = "numbers", "screen"
-"""What an agent sees: x, y, b and its choice; or the game's window. Otherwise planes (arena/planes.py)."""
+NUMBERS, SCREEN, OBJECTIVES = "numbers", "screen", "objectives"
+"""What an agent sees: x, y, b and its choice; the game's window; an objective and what stands around (objectives/).
+
+Otherwise planes (arena/planes.py).
+"""
 
 MLP, CNN, CPU = "mlp", "cnn", "cpu"
+
+REACH, ORDER = "reach", "order"
+"""The networks of the agents with objectives: the nested agent's, and the main agent's."""
 
 
 def misfit(choice: EngineChoice, states: str, *, explores_by_place: bool, imagines: bool, encoding: str) -> str | None:
@@ -65,13 +71,14 @@ def misfit(choice: EngineChoice, states: str, *, explores_by_place: bool, imagin
         f'states "{states}" need engine "torch": the compiled engine takes numbers alone': compiled and not numbers,
         f'network "{network}" needs engine "torch": the compiled engine has "mlp" alone': compiled and network != MLP,
         f'device "{device}" needs engine "torch": the compiled engine is for the processor': compiled and device != CPU,
+        'states "objectives" and network "reach" go together': (states == OBJECTIVES) != (network == REACH),
         'network "cnn" needs states "image" or "screen": numbers have no neighbours': network == CNN and numbers,
         '[imagination] needs engine "compiled" and states "numbers"': imagines and not (compiled and numbers),
         f'[excursions] go by x and y: with states "{states}", write [explore_nested]': explores_by_place
         and not numbers,
         f'encoding "{encoding}" is for states "numbers": leave it out': encoding != "scaled" and not numbers,
         f'network "{network}": write "mlp", "cnn", or a module and its function, "my_module:make"': (
-            network not in (MLP, CNN) and ":" not in network
+            network not in (MLP, CNN, REACH) and ":" not in network
         ),
     }
     return next((says for says, is_broken in rules.items() if is_broken), None)

@@ -71,6 +71,12 @@ class Replay:
         if _store(rows, self.added, self.capacity, tuple(self._kept), tuple(transitions)):
             self._make_room_for(self._room + 1)
 
+    def add_several(self, row: int, transitions: Transitions) -> None:
+        """Store transitions (k,) of one run, the oldest first."""
+        rows = np.full(len(transitions.actions), row)
+        self._make_room_for(int(self.added[row]) + len(rows) + 1)
+        self.add(rows, transitions)
+
     def sample(self, rows: Int64s, uniforms: Float64s) -> Int64s:
         """Return indices (k, batch) of transitions of the named runs (k,), uniformly, by numbers in [0, 1)."""
         indices = np.empty(uniforms.shape, np.int64)

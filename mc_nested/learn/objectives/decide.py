@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 
 from mc_nested.arena.action import Action, Cell
-from mc_nested.arena.rules import landing, moved
+from mc_nested.arena.rules import end_of_episode, landing, moved
 from mc_nested.arena.scenario import Scenario
 from mc_nested.arrays import Float32s
 from mc_nested.learn.objectives.arenas import (
@@ -42,13 +42,15 @@ class Plan:
     """What the agent is about.
 
     ``objective`` is None before the first; ``steps`` were spent on it; ``blocks`` had landed when it was chosen.
-    ``given_up`` are objectives that weren't reached since the last block landed.
+    ``given_up`` are objectives that weren't reached since the last block landed. ``tried`` is what was done on the way
+    to this one, and where: the same again in the same cell would lead round in a circle.
     """
 
     objective: Cell | None = None
     steps: int = 0
     blocks: int = 0
     given_up: frozenset[Cell] = frozenset()
+    tried: frozenset[tuple[Cell, Action]] = frozenset()
 
 
 class ObjectiveAgent:
@@ -81,13 +83,17 @@ class ObjectiveAgent:
         if plan.objective is None:
             raise ValueError("nothing is left to build")
         reaching = self._reaching(plan.objective, placed)
-        action = Action(int(self._nested.values(reaching, np.array([framed(cell)]))[0].argmax()))
+        values = self._nested.values(reaching, np.array([framed(cell)]))[0]
+        untried = [each for each in Action if (cell, each) not in plan.tried] or list(Action)
+        action = max(untried, key=lambda each: float(values[each]))
         part = self._scenario.part_at(self._scenario.blocks - len(placed))
-        return Decision(action, self._scenario.best_materials[part]), replace(plan, steps=plan.steps + 1)
+        then = replace(plan, steps=plan.steps + 1, tried=plan.tried | {(cell, action)})
+        return Decision(action, self._scenario.best_materials[part]), then
 
     def is_stuck(self, plan: Plan, placed: frozenset[Cell]) -> bool:
-        """Return whether every cell that is left was given up since the last block landed."""
-        return plan.blocks == len(placed) and self._left(placed) <= plan.given_up
+        """Return whether no cell is left, or each was given up since the last block landed."""
+        left = self._left(placed)
+        return not left or (plan.blocks == len(placed) and left <= plan.given_up)
 
     def expected(self, cell: Cell, placed: frozenset[Cell], action: Action) -> tuple[Cell, frozenset[Cell]]:
         """Return where the agent is after an action, and where blocks are then, as the rules say."""
@@ -133,3 +139,13 @@ class ObjectiveAgent:
 
     def _occupied(self, placed: Collection[Cell]) -> np.ndarray[tuple[int, ...], np.dtype[np.bool_]]:
         return self._outside | framed_cells(placed, self._side)
+
+
+def built_by_the_rules(agent: ObjectiveAgent, scenario: Scenario) -> tuple[frozenset[Cell], int]:
+    """Return what stands after one episode of that agent, and its steps, if all goes as the rules say."""
+    plan, cell, placed, steps = Plan(), scenario.start, frozenset[Cell](), 0
+    while not any(end_of_episode(scenario.blocks - len(placed), steps, scenario.step_limit)):
+        decision, plan = agent.decide(plan, cell, placed)
+        cell, placed = agent.expected(cell, placed, decision.action)
+        steps += 1
+    return placed, steps

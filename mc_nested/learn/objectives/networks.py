@@ -64,6 +64,10 @@ class Reaching(NamedTuple):
     near: Float32s
     wide: Float32s
 
+    def of(self, rows: Int64s) -> "Reaching":
+        """Return what is known in the named arenas (k,)."""
+        return Reaching(self.near[rows], self.wide[rows])
+
 
 class ReachNetwork:
     """The nested agent's network, of parameters (parameters,): what the best action is.

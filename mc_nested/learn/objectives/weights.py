@@ -28,10 +28,17 @@ class Weights(NamedTuple):
     nested: Float32s
 
 
+def shipped_file() -> Path:
+    """Return where the weights that come with the package lie."""
+    return Path(str(resources.files(__package__) / FILE))
+
+
 def shipped_weights() -> Weights:
     """Return the weights that come with the package; RunError, one line, if they are broken."""
-    file = resources.files(__package__) / FILE
-    return _parsed(file.read_bytes(), FILE) if file.is_file() else _missing()
+    try:
+        return _parsed(shipped_file().read_bytes(), FILE)
+    except OSError as error:
+        raise RunError(f"{FILE}: can't be read ({error.strerror}): install the package again") from error
 
 
 def save_weights(weights: Weights, file: Path) -> None:
@@ -60,7 +67,3 @@ def _parsed(content: bytes, source: str) -> Weights:
     except (SafetensorError, KeyError, ValueError) as error:
         raise RunError(f"{source}: is broken ({error}): install the package again") from error
     return Weights(main, nested)
-
-
-def _missing() -> Weights:
-    raise RunError(f"{FILE}: is gone: install the package again")

@@ -1,6 +1,9 @@
-"""The claims about what the paper didn't try: (j) images, (k) parts, (l) many main actions, (m) cooperation."""
+"""The claims about what the paper didn't try.
 
-from collections.abc import Mapping, Sequence
+(j) images, (k) parts, (l) many main actions, as materials, (m) cooperation, (n) many main actions, as objectives.
+"""
+
+from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 from typing import get_args
 
@@ -70,9 +73,9 @@ LAST = ": those whose last greedy episode scores the optimum"
 
 
 def judge_beyond(arms: Arms) -> tuple[JudgedClaim, ...]:
-    """Judge every claim."""
-    claims = (*_of_images(arms), *_of_parts(arms), *_of_materials(arms), *_of_teams(arms))
-    return tuple(judged(claim) for claim in claims)
+    """Judge every claim about a topic that has arms."""
+    topics = [(topic, claims) for topic, claims in CLAIMS.items() if of_topic(arms, topic)]
+    return tuple(judged(claim) for topic, claims in topics for claim in claims(of_topic(arms, topic)))
 
 
 def of_topic(arms: Arms, topic: str) -> list[ArmResults]:
@@ -101,10 +104,8 @@ def equal_budget(arms: Sequence[ArmResults], of: Budget) -> int:
     return min(arm.least_cost(of) for arm in arms)
 
 
-def _of_images(arms: Arms) -> list[Claim]:
-    designs = designs_of(of_topic(arms, "images"))
-    images = [arms["images", design, "images"] for design in designs]
-    numbers = [arms["images", design, "numbers"] for design in designs]
+def _of_images(arms: Sequence[ArmResults]) -> list[Claim]:
+    images, numbers = ([arm for arm in arms if arm.name == name] for name in ("images", "numbers"))
     return [
         Claim(
             "j1",
@@ -128,10 +129,9 @@ def _of_images(arms: Arms) -> list[Claim]:
     ]
 
 
-def _of_parts(arms: Arms) -> list[Claim]:
-    solved = next(arm for arm in of_topic(arms, "parts") if arm.stops)
-    nested = arms["parts", solved.scenario, NESTED]
-    against = [arms["parts", solved.scenario, other] for other in (HIERARCHICAL, SINGLE)]
+def _of_parts(arms: Sequence[ArmResults]) -> list[Claim]:
+    solved = next(arm for arm in arms if arm.stops)
+    nested, *against = (next(arm for arm in arms if arm.name == name) for name in (NESTED, HIERARCHICAL, SINGLE))
     return [
         Claim(
             "k1",
@@ -155,14 +155,14 @@ def _of_parts(arms: Arms) -> list[Claim]:
     ]
 
 
-def _of_materials(arms: Arms) -> list[Claim]:
+def _of_main_actions(letter: str, arms: Sequence[ArmResults]) -> list[Claim]:
     contests: list[tuple[str, Budget, bool]] = [
         *((other, of, False) for other in (HIERARCHICAL, SINGLE) for of in get_args(Budget)),
         *((other, "steps", True) for other in (HIERARCHICAL, SINGLE)),
     ]
-    grown = [_grows(arms, f"l{number}", *contest) for number, contest in enumerate(contests, start=1)]
+    grown = [_grows(arms, f"{letter}{number}", *contest) for number, contest in enumerate(contests, start=1)]
     networks = Claim(
-        f"l{len(grown) + 1}",
+        f"{letter}{len(grown) + 1}",
         "the hierarchy's networks grow with the number of main actions, nested's don't",
         MODELS,
         "6",
@@ -172,44 +172,33 @@ def _of_materials(arms: Arms) -> list[Claim]:
     return [*grown, networks]
 
 
-def _grows(arms: Arms, letter: str, other: str, of: Budget, is_early: bool) -> Claim:
-    own = [arm for arm in of_topic(arms, "materials") if arm.name in (NESTED, other)]
-    budget = equal_budget(own, of)
+def _grows(arms: Sequence[ArmResults], letter: str, other: str, of: Budget, is_early: bool) -> Claim:
+    own = {(arm.name, arm.materials): arm for arm in arms if arm.name in (NESTED, other)}
+    budget = equal_budget(list(own.values()), of)
 
     def measure(arm: ArmResults) -> Float64s:
         return arm.early(budget, of) if is_early else arm.within(budget, of)
 
-    leads = {
-        arm.materials: (measure(arm), measure(arms["materials", arm.scenario, other]))
-        for arm in own
-        if arm.name == NESTED
-    }
+    leads = {count: (measure(own[NESTED, count]), measure(own[other, count])) for _, count in own}
     when = "early" if is_early else "late"
     title = f"nested's lead on {other} grows with the number of main actions, {when}, at equal {of}"
     rule = GROWS.format(measure=(EARLY if is_early else LATE).format(of=of))
     return Claim(letter, title, MANY, "6", rule, (lead_grows(f"{NESTED} and {other}, equal {of}", leads),))
 
 
-def _networks(arms: Arms) -> Evidence:
-    counts = {
-        agent: [arm.trials[0].networks for arm in of_topic(arms, "materials") if arm.name == agent]
-        for agent in (NESTED, HIERARCHICAL)
-    }
-    grows = {agent: counted[-1] > counted[0] for agent, counted in counts.items()}
+def _networks(arms: Sequence[ArmResults]) -> Evidence:
+    own = {agent: [arm for arm in arms if arm.name == agent] for agent in (NESTED, HIERARCHICAL)}
+    grows = {agent: of[-1].trials[0].networks > of[0].trials[0].networks for agent, of in own.items()}
     figures = tuple(
-        (f"{agent} with {arm.materials}", arm.trials[0].networks)
-        for agent in counts
-        for arm in of_topic(arms, "materials")
-        if arm.name == agent
+        (f"{agent} with {arm.materials}", arm.trials[0].networks) for agent, of in own.items() for arm in of
     )
     holds = grows[HIERARCHICAL] and not grows[NESTED]
     return Evidence("networks of a trial", figures, counted=Verdict.HOLDS if holds else Verdict.FAILS)
 
 
-def _of_teams(arms: Arms) -> list[Claim]:
-    own = of_topic(arms, "cooperation")
-    alone = alone_among(own)
-    teams = {kind: list(teams_of(own, kind).values()) for kind in NETWORKS}
+def _of_teams(arms: Sequence[ArmResults]) -> list[Claim]:
+    alone = alone_among(arms)
+    teams = {kind: list(teams_of(arms, kind).values()) for kind in NETWORKS}
     return [
         Claim(
             "m1",
@@ -228,6 +217,16 @@ def _of_teams(arms: Arms) -> list[Claim]:
             )
         ),
     ]
+
+
+CLAIMS: Mapping[str, Callable[[Sequence[ArmResults]], list[Claim]]] = {
+    "images": _of_images,
+    "parts": _of_parts,
+    "materials": partial(_of_main_actions, "l"),
+    "cooperation": _of_teams,
+    "objectives": partial(_of_main_actions, "n"),
+}
+"""A topic's claims, of its arms."""
 
 
 def _compared_teams(

@@ -83,6 +83,20 @@ def around(mean: float, trials: int = 10, spread: float = 0.5) -> list[list[Eval
     return [trial_of([mean + sign * spread] * 12) for sign in signs]
 
 
+def many_main_actions(
+    topic: str, counts: Sequence[int], means: Callable[[str, str, int], float] = lambda *_: 15.0, trials: int = 10
+) -> Arms:
+    """Return the three agents' arms with so many main actions each."""
+    arms = []
+    for count in counts:
+        networks = {"nested": 2, "hierarchical": 1 + count, "single": 1}
+        arms += [
+            arm(topic, name, around(means(topic, name, count), trials), f"line, {count} {topic}", count, networks[name])
+            for name in networks
+        ]
+    return {each.key: each for each in arms}
+
+
 def whole(means: Callable[[str, str, int], float] = lambda *_: 15.0, trials: int = 10, image_trials: int = 3) -> Arms:
     """Return every arm that a run of --beyond has.
 
@@ -100,19 +114,7 @@ def whole(means: Callable[[str, str, int], float] = lambda *_: 15.0, trials: int
         arm("parts", name, around(means("parts", name, 0), trials), "flag")
         for name in ("nested", "hierarchical", "single")
     ]
-    for count in (2, 4, 8):
-        networks = {"nested": 2, "hierarchical": 1 + count, "single": 1}
-        arms += [
-            arm(
-                "materials",
-                name,
-                around(means("materials", name, count), trials),
-                f"line, {count} materials",
-                count,
-                networks[name],
-            )
-            for name in networks
-        ]
+    arms += many_main_actions("materials", (2, 4, 8), means, trials).values()
     alone = around(means("cooperation", "alone", 1), trials)
     arms.append(arm("cooperation", "1 builder", alone, team=JobBuilders(1, "shared")))
     for count in (2, 3, 4):

@@ -24,8 +24,9 @@ from mc_nested.learn.dqn.compiled_engine.networks import Sizes, initial_paramete
 from mc_nested.learn.dqn.engine import NetworkForm
 from mc_nested.learn.dqn.states import PackedPlanes, States, StateSpace
 from mc_nested.learn.dqn.torch_engine.layout import flat_of
+from mc_nested.learn.dqn.torch_engine.objective_networks import OrderNetwork, ReachNetwork
 
-MLP, CNN = "mlp", "cnn"
+MLP, CNN, REACH, ORDER = "mlp", "cnn", "reach", "order"
 
 LARGEST_SIDE_OF_SMALL = 40
 """Planes of more cells a side are pictures: they get the deep Q-network's layers for pictures (Mnih et al., 2013)."""
@@ -71,6 +72,10 @@ def network_maker(network: str, hidden: Sequence[int]) -> Make:
         return lambda shape, actions: mlp(shape, hidden, actions)
     if network == CNN:
         return lambda shape, actions: cnn(shape, hidden, actions)
+    if network == REACH:
+        return lambda _, actions: ReachNetwork(actions)
+    if network == ORDER:
+        return lambda _, __: OrderNetwork()
     return own_maker(network)
 
 

@@ -13,9 +13,6 @@ from torch.nn.functional import pad
 
 from mc_nested.learn.objectives.arenas import AGENT, OCCUPIED, WANTED
 
-REACH, ORDER = "reach", "order"
-"""The nested agent's network, and the main agent's, as a preset names them."""
-
 SWEEPS_A_CELL = 1.5
 """Sweeps for each cell of a side: a way past what stands is longer than straight on."""
 

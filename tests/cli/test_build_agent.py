@@ -1,0 +1,296 @@
+"""``mc-nested build --agent``: what the shipped agent builds, what it can't reach, and where it fails."""
+
+import json
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+import pytest
+
+import mc_nested.cli.build
+import sim.worlds
+from mc_nested.arena.action import Action, Cell
+from mc_nested.arena.scenario import Scenario
+from mc_nested.arena.scenario_file import shipped_scenarios
+from mc_nested.errors import LiveError
+from mc_nested.learn.objectives import weights
+from mc_nested.learn.objectives.building import Step
+from mc_nested.learn.objectives.weights import save_weights, shipped_weights
+from mc_nested.live.devices import Display
+from mc_nested.live.live_game import LiveGame
+from mc_nested.live.profile.arena import Arena
+from mc_nested.live.profile.store import save_profile
+from mc_nested.live.profile.tables import Profile
+from mc_nested.report import terminal
+from mc_nested.report.filmed_game import FilmedGame
+from mc_nested.view.board import Board
+from sim.client.client import VirtualClient
+from tests.arena.made_games import TakesAtItsWord
+from tests.cli.fragile_game import open_live
+from tests.cli.running import run
+from tests.design_files.written import HUT, picture, sponge
+from tests.report.films import pictures_of
+from tests.sim.client.playing import arena_of, play
+
+LOW = """
+name = "low"
+start = [3, 6]
+step_limit = 60
+design = '''
+.......
+.#####.
+.#...#.
+.#...#.
+.#...#.
+.#...#.
+.##.##.
+'''
+[[materials]]
+name = "stone"
+p = 10.0
+block = "stone"
+"""
+"""17 blocks, four of them in the nearest row."""
+
+
+@pytest.fixture
+def low(tmp_path: Path) -> Path:
+    path = tmp_path / "low.toml"
+    path.write_text(LOW)
+    return path
+
+
+@pytest.fixture
+def profile(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Have a profile ``mine``, whose arena has a copy of what stood there."""
+    monkeypatch.setattr("mc_nested.live.profile.store.profile_folder", lambda: tmp_path / "config")
+    copied = Arena.around((0, 64, 0), "south").model_copy(update={"copied_to": (-1, 100, -1)})
+    save_profile(Profile(arena=copied), tmp_path / "config" / "mine.toml")
+
+
+def acts(monkeypatch: pytest.MonkeyPatch, *actions: Action) -> None:
+    """Have the agent take these actions, and no others."""
+    steps = [Step((action, 1), None, (7, 3)) for action in actions]
+    monkeypatch.setattr(mc_nested.cli.build, "steps_of", lambda *_: iter(steps))
+
+
+@pytest.mark.parametrize(("name", "score"), [("house", 50.0), ("flag", 36.0)])
+def test_the_agent_builds_shipped_designs_whole(name: str, score: float, capsys: pytest.CaptureFixture[str]) -> None:
+    assert run("build", name, "--agent", "--json") == 0
+    printed = capsys.readouterr()
+    found = json.loads(printed.out)
+    assert found["built"] == found["blocks"]
+    assert (found["score"], found["optimum"], found["unreachable"]) == (score, score, [])
+    assert printed.err == ""
+
+
+def test_it_builds_otherwise_than_the_scripted_builder(capsys: pytest.CaptureFixture[str]) -> None:
+    steps = []
+    for words in ([], ["--agent"]):
+        assert run("build", "house", "--json", *words) == 0
+        steps.append(json.loads(capsys.readouterr().out)["steps"])
+    assert steps[0] > steps[1]
+
+
+@pytest.mark.parametrize("material", [None, "wood"])
+@pytest.mark.parametrize("name", shipped_scenarios())
+def test_each_action_is_announced_with_its_material(
+    name: str, material: str | None, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    games: list[TakesAtItsWord] = []
+
+    def opened(scenario: Scenario) -> TakesAtItsWord:
+        games.append(TakesAtItsWord(scenario))
+        return games[-1]
+
+    monkeypatch.setattr(sim.worlds, "GridGame", opened)
+    assert run("build", name, "--agent", *(["--material", material] if material else [])) == 0
+    (game,) = games
+    assert f"in {game.acts} steps" in capsys.readouterr().out
+    assert game.kept == game.acts - 1
+    assert game.following is None
+
+
+@pytest.mark.parametrize(
+    ("file", "content", "words", "blocks"),
+    [("hut.schem", sponge(HUT), ["--layer", "0"], 11), ("hut.png", picture(HUT[0]), [], 11)],
+)
+def test_a_layer_and_a_picture_are_built(
+    file: str, content: bytes, words: list[str], blocks: int, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (tmp_path / file).write_bytes(content)
+    assert run("build", tmp_path / file, *words, "--agent", "--material", "wood", "--quiet") == 0
+    assert capsys.readouterr().out.startswith(f"  built {blocks} of {blocks} blocks, of wood, in ")
+
+
+def test_cells_out_of_reach_are_named_first_and_all_else_is_built(
+    low: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert run("build", low, "--agent", "--json") == 0
+    printed = capsys.readouterr()
+    found = json.loads(printed.out)
+    assert (found["blocks"], found["built"], found["score"], found["optimum"]) == (17, 13, 23.0, 23.0)
+    assert found["unreachable"] == [[1, 0], [2, 0], [4, 0], [5, 0]]
+    where = "(1, 0), (2, 0), (4, 0), (5, 0)"
+    assert printed.err == f"  no block can land on {where}: out of the agent's reach; all else is built\n"
+    assert run("build", low, "--agent", "--quiet") == 0
+    printed = capsys.readouterr()
+    assert printed.out.startswith("  built 13 of 17 blocks")
+    assert printed.err == ""
+
+
+@pytest.mark.usefixtures("profile")
+def test_in_a_game_it_is_said_before_the_first_block_what_is_out_of_reach(
+    low: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    open_live(monkeypatch, 0, LiveError("it lagged"))
+    assert run("build", low, "--agent", "--backend", "live", "--profile", "mine") == 2
+    said = capsys.readouterr().err.splitlines()
+    assert said[1].startswith("  no block can land on (1, 0)")
+    assert said[2] == "  it lagged; the episode starts over"
+
+
+@pytest.mark.parametrize(
+    ("change", "words", "says"),
+    [
+        (("", ""), [], "low.toml: design: cell (1, 0) can't be reached"),
+        (("#", "."), ["--agent"], "low.toml: design: has no block"),
+        ((".#####.\n.#...#.\n.#...#.\n.#...#.\n.#...#.", ".......\n" * 5), ["--agent"], "cell (1, 0) can't be reached"),
+        (("step_limit = 60", "step_limit = 12"), ["--agent"], "12 steps can't place 13 blocks: raise it"),
+        ((".......", "." * 33), ["--agent"], "row 1 has 33 characters: draw a square, 5 to 32 rows"),
+        (("", ""), ["--agent", "--material", "gold"], "scenario low has no material 'gold': choose one of stone"),
+        (("", ""), ["--agent", "--layer", "0"], "low.toml is a drawing of one layer: leave out --layer"),
+    ],
+)
+def test_a_drawing_of_which_nothing_can_be_built_is_refused_in_one_line(
+    change: tuple[str, str], words: list[str], says: str, low: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    low.write_text(LOW.replace(*change) if change[0] else LOW)
+    assert run("build", low, *words) == 2
+    printed = capsys.readouterr()
+    assert printed.out == ""
+    assert printed.err.startswith("mc-nested: ")
+    assert says in printed.err
+    assert printed.err.count("\n") == 1
+
+
+def of_another_version(path: Path) -> None:
+    main, nested = shipped_weights()
+    save_weights(weights.Weights(main[:-1], nested), path)
+
+
+@pytest.mark.parametrize(
+    ("write", "says"),
+    [
+        (lambda _: None, "is gone: install the package again"),
+        (lambda path: path.write_bytes(b"no weights"), "is broken ("),
+        (lambda path: path.write_bytes(b""), "is broken ("),
+        (of_another_version, "its weights are of another version ("),
+    ],
+)
+def test_weights_that_cannot_be_used_are_an_error_before_anything_is_opened(
+    write: Callable[[Path], None],
+    says: str,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    file = tmp_path / weights.FILE
+    write(file)
+    monkeypatch.setattr(weights, "FILE", str(file))
+    assert run("build", "line", "--agent") == 2
+    printed = capsys.readouterr()
+    assert printed.out == ""
+    assert printed.err.startswith(f"mc-nested: {file}: {says}")
+    assert printed.err.count("\n") == 1
+
+
+@pytest.mark.parametrize(
+    ("actions", "built", "why"),
+    [
+        ([Action.B] * 60, 0, "its step_limit of 60 was reached: raise it, or build without --agent"),
+        ([Action.B, Action.BD], 0, "it gave up the others: build without --agent"),
+        ([Action.L, *[Action.BD] * 11], 0, "it laid the others off the design: build without --agent"),
+        ([Action.B, Action.B, Action.BD], 1, "it gave up the others: build without --agent"),
+    ],
+)
+def test_an_agent_that_fails_says_why_after_its_result_and_keeps_the_film(
+    actions: list[Action],
+    built: int,
+    why: str,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    acts(monkeypatch, *actions)
+    film = tmp_path / "film.gif"
+    assert run("build", "line", "--agent", "--json", "--video", film) == 2
+    printed = capsys.readouterr()
+    found = json.loads(printed.out)
+    assert (found["built"], found["score"], found["steps"]) == (built, 10.0 + built, len(actions))
+    assert printed.err == f"mc-nested: the agent built {built} of 11 blocks in reach, {why}\n"
+    assert len(pictures_of(film)) > 1
+
+
+def test_the_arena_the_view_and_the_film_show_what_the_agent_is_after(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    drawn: list[Cell | None] = []
+    published: list[Cell | None] = []
+    filmed: list[Cell | None] = []
+    view, show, act = terminal.arena_view, Board.show, FilmedGame.act
+
+    def arena_view(scenario: Scenario, agent: Cell, placed: frozenset[Cell], objective: Cell | None) -> object:
+        drawn.append(objective)
+        return view(scenario, agent, placed, objective)
+
+    def board_show(board: Board, **fields: object) -> None:
+        published.append(fields["arena"].objective)  # type: ignore[attr-defined]  # an ArenaSeen
+        show(board, **fields)
+
+    def filmed_act(game: FilmedGame, *asked: object) -> object:
+        filmed.append(game.objective)
+        return act(game, *asked)  # type: ignore[arg-type]  # what it is asked for
+
+    monkeypatch.setattr("mc_nested.cli.watching.arena_view", arena_view)
+    monkeypatch.setattr(Board, "show", board_show)
+    monkeypatch.setattr(FilmedGame, "act", filmed_act)
+    acts(monkeypatch, Action.B, Action.BD)
+    assert run("build", "line", "--agent", "--video", tmp_path / "film.gif") == 2
+    assert drawn == published == [(7, 3), (7, 3), None]
+    assert filmed == [(7, 3), (7, 3)]
+    drawn.clear()
+    assert run("build", "line") == 0
+    assert set(drawn) == {None}
+    assert "@" not in capsys.readouterr().out
+
+
+def test_the_agent_builds_on_the_virtual_client(capsys: pytest.CaptureFixture[str]) -> None:
+    assert run("build", "line", "--agent", "--backend", "virtual", "--quiet") == 0
+    said = capsys.readouterr().out.splitlines()
+    assert said[0].startswith("  built 11 of 11 blocks, of stone, in ")
+    assert "s an action (median); walking " in said[1]
+
+
+@pytest.mark.usefixtures("profile")
+@pytest.mark.parametrize("mishaps_a_second", [None, 0.15])
+def test_it_builds_block_for_block_in_a_game_where_actions_go_wrong(
+    mishaps_a_second: float | None, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (tmp_path / "hut.schem").write_bytes(sponge(HUT))
+    client = VirtualClient(seed=4)
+    if mishaps_a_second:
+        client.mishaps.every(mishaps_a_second)
+
+    @contextmanager
+    def opened(scenario: Scenario, *_: object, **__: object) -> Iterator[tuple[LiveGame, Display]]:
+        with play(client, scenario) as game:
+            yield game, client.display
+
+    monkeypatch.setattr(sim.worlds, "open_live_game", opened)
+    words = ["--layer", "0", "--agent", "--backend", "live", "--profile", "mine"]
+    assert run("build", tmp_path / "hut.schem", *words) == 0
+    assert "built 11 of 11 blocks, of stone" in capsys.readouterr().out
+    assert bool(client.mishaps.happened) is bool(mishaps_a_second)
+    rows = {8: (5, 6, 7, 8), 7: (5, 7, 8), 6: (5, 6, 7, 8)}
+    assert client.placed(arena_of(client)) == {(x, y) for y, across in rows.items() for x in across}

@@ -1,0 +1,101 @@
+"""What the agent with objectives does next: its plan, and what the shipped networks build."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from mc_nested.arena.action import Action, Cell
+from mc_nested.arena.builder import build
+from mc_nested.arena.random_designs import random_scenario
+from mc_nested.arena.scenario_file import load_scenario, shipped_scenarios
+from mc_nested.learn.objectives.decide import PATIENCE, ObjectiveAgent, Plan, built_by_the_rules
+from mc_nested.learn.objectives.weights import agent_of, shipped_weights
+from tests.learn.objectives.made_objectives import by_chance
+
+WEIGHTS = shipped_weights()
+LINE = load_scenario("line")
+
+
+@pytest.mark.parametrize("name", shipped_scenarios())
+def test_every_shipped_design_is_built_whole_at_the_first_try(name: str) -> None:
+    scenario = load_scenario(name)
+    placed, steps = built_by_the_rules(agent_of(WEIGHTS, scenario), scenario)
+    assert placed == scenario.design
+    assert steps <= scenario.step_limit
+
+
+def test_random_designs_are_built_whole_in_about_the_scripted_builders_steps() -> None:
+    scenarios = [random_scenario(7, number, LINE) for number in range(30)]
+    built = [built_by_the_rules(agent_of(WEIGHTS, scenario), scenario) for scenario in scenarios]
+    whole = [placed == scenario.design for (placed, _), scenario in zip(built, scenarios, strict=True)]
+    assert sum(whole) >= 29
+    shares = [steps / len(build(scenario)) for (_, steps), scenario in zip(built, scenarios, strict=True)]
+    assert np.median(shares) <= 1.15
+
+
+@pytest.mark.parametrize("size", [5, 11, 32])
+def test_a_design_is_built_in_an_arena_of_any_size(size: int) -> None:
+    design = frozenset((x, y) for x in (1, 2, size - 2) for y in (1, 3))
+    scenario = replace(LINE, name="six", design=design, size=size, start=(size // 2, size - 1), step_limit=200)
+    assert built_by_the_rules(agent_of(WEIGHTS, scenario), scenario)[0] == design
+
+
+def test_an_objective_is_kept_until_a_block_has_landed() -> None:
+    agent = agent_of(WEIGHTS, LINE)
+    plan, cell, placed = Plan(), (0, 0), frozenset[Cell]()
+    objectives = []
+    while not placed:
+        (action, _), plan = agent.decide(plan, cell, placed)
+        objectives.append(plan.objective)
+        cell, placed = agent.expected(cell, placed, action)
+    assert len(objectives) > 5
+    assert len(set(objectives)) == 1
+    assert placed == set(objectives)
+    _, plan = agent.decide(plan, cell, placed)
+    assert plan.objective in LINE.design - placed
+
+
+def test_the_same_is_never_done_twice_in_one_cell_for_one_objective() -> None:
+    agent = ObjectiveAgent(WEIGHTS.main, by_chance(len(WEIGHTS.nested), 3), LINE)
+    plan, done = Plan(), set()
+    for _ in Action:
+        (action, _), plan = agent.decide(plan, (3, 3), frozenset())  # nothing ever happens
+        done.add(action)
+    assert done == set(Action)
+
+
+def test_an_objective_that_isnt_reached_is_given_up_and_all_of_them_are_tried_again() -> None:
+    scenario = replace(LINE, design=frozenset({(2, 3), (4, 3)}), size=5, start=(2, 2))
+    agent = agent_of(WEIGHTS, scenario)
+    patience = PATIENCE * 7
+    plan, objectives = Plan(), []
+    for number in range(3 * patience):
+        assert agent.is_stuck(plan, frozenset()) == (number > 2 * patience)
+        _, plan = agent.decide(plan, (0, 0), frozenset())  # it stands still
+        objectives.append(plan.objective)
+    first, second, third = (set(objectives[part * patience : (part + 1) * patience]) for part in range(3))
+    assert len(first) == len(second) == len(third) == 1
+    assert first | second == scenario.design
+    assert third <= scenario.design
+
+
+def test_with_parts_only_the_cells_of_the_part_are_objectives_each_of_the_material_worth_most() -> None:
+    flag = load_scenario("flag")
+    agent, plan, cell, placed = agent_of(WEIGHTS, flag), Plan(), flag.start, frozenset[Cell]()
+    while len(placed) < flag.blocks:
+        part = flag.in_order[flag.part_at(flag.blocks - len(placed))]
+        (action, material), plan = agent.decide(plan, cell, placed)
+        assert plan.objective in part.cells
+        assert material == part.best_material
+        cell, placed = agent.expected(cell, placed, action)
+
+
+def test_the_same_plan_decides_the_same() -> None:
+    one, other = agent_of(WEIGHTS, LINE), agent_of(WEIGHTS, LINE)
+    assert one.decide(Plan(), LINE.start, frozenset()) == other.decide(Plan(), LINE.start, frozenset())
+
+
+def test_nothing_is_decided_once_everything_stands() -> None:
+    with pytest.raises(ValueError, match="nothing is left"):
+        agent_of(WEIGHTS, LINE).decide(Plan(), (0, 0), LINE.design)
