@@ -72,5 +72,6 @@ def own_player(folder: RunFolder, opening: Opening, publisher: Publisher) -> Ite
         shown = env if isinstance(env, TeamVectorEnv) else as_shown(env, config.preset.states)
         view = agent.view_of(shown, folder.scenarios)
         asked = folder.scenarios, agent, config.preset, config.seed, config.stop_at_optimum
-        trainer = ObjectivesTraining(*asked) if config.preset.objectives else Trainer(view, *asked)
+        learns = config.preset.objectives and not config.design_unknown
+        trainer = ObjectivesTraining(*asked) if learns else Trainer(view, *asked)
         yield OwnPlayer(trainer, env, log, lambda: publisher.was_paused_lately)

@@ -17,7 +17,7 @@ from rich.text import Text
 
 from mc_nested.arena.scenario import Scenario
 from mc_nested.cli.output import print_line
-from mc_nested.learn.imagination.imagination import Imagination
+from mc_nested.learn.imagination.known_arena import Knowing
 from mc_nested.learn.training import Training
 from mc_nested.report.terminal_map import map_view
 
@@ -128,8 +128,8 @@ class TrainingProgress:
         score = f"{sum(row.score for row in recent) / len(recent):5.1f}" if recent else "    -"
         done = int(trainer.episodes_done.sum())
         most = int(np.where(trainer.runs_finished, trainer.episodes_done, trainer.preset.episodes).sum())
-        if trainer.imagination:
-            self._look_at(trainer.imagination, now)
+        if trainer.practice.known:
+            self._look_at(trainer.practice.known, now)
             exploring = self._found_out
         else:
             main, nested = (float(epsilon.mean()) for epsilon in trainer.epsilon)
@@ -144,13 +144,13 @@ class TrainingProgress:
         if not self.in_terminal:
             print_line(self._bar.console, f"episodes {done:,} of at most {most:,}  {figures}")
 
-    def _look_at(self, imagination: Imagination, now: float) -> None:
+    def _look_at(self, known: Knowing, now: float) -> None:
         """See what the first trial has found out, in a new episode at once."""
-        episodes = imagination.episodes(0)
+        episodes = known.episodes(0)
         if episodes == self._looked_at and now < self._look_again:
             return
         self._looked_at, self._look_again = episodes, now + LOOK_S
-        seen = imagination.known_arena(0)
+        seen = known.known_arena(0)
         of_several = "trial 0: " if len(self._trainer.episodes_done) > 1 else ""
         doing = "probing" if seen.explores else "building"
         self._found_out = (

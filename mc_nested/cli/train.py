@@ -46,6 +46,7 @@ from mc_nested.learn.preset import MOST, load_preset
 from mc_nested.learn.runs.folder_lock import folder_lock
 from mc_nested.learn.runs.run_config import RunConfig, TeamTable
 from mc_nested.learn.runs.run_folder import RunFolder
+from mc_nested.learn.unknown_design import ANY_DESIGN, playing
 from sim.worlds import Backend, check_window
 
 MOST_TRIALS = 1000
@@ -65,6 +66,9 @@ BESIDE_RESUME = (
     "--json",
 )
 """The options that a run can be resumed with; all others are in its config.toml."""
+
+NOT_UNKNOWN = ("--builders", "--start", "--networks", "--games", "--from", "--engine", "--device", "--states")
+"""The options that don't go with --design-unknown."""
 
 BUILDERS = 2
 """Builders in one arena, unless their number is given."""
@@ -109,6 +113,10 @@ def train(  # noqa: PLR0913 - a Typer verb: a parameter for each option
             autocompletion=complete_of(lambda: NETWORKS),
         ),
     ] = None,
+    design_unknown: Annotated[
+        bool,
+        typer.Option("--design-unknown", help=f"don't tell the agent of the preset {ANY_DESIGN} what it is to build"),
+    ] = False,
     backend: Annotated[Backend, typer.Option(help="where it is played")] = Backend.SIM,
     preset: PresetOption = "paper",
     engine: EngineOption = None,
@@ -177,6 +185,9 @@ def train(  # noqa: PLR0913 - a Typer verb: a parameter for each option
     check_window(chosen.states, backend is not Backend.SIM)
     design = named_scenario(scenario, layer)
     team = _team(design, builders, start, networks)
+    if design_unknown:
+        _check_unknown(context, preset, agent, design)
+        chosen = playing(chosen)
     names_agent = is_given(context, "agent")
     if team and (names_agent or backend is not Backend.SIM):
         option = "--agent" if names_agent else "--backend"
@@ -192,6 +203,7 @@ def train(  # noqa: PLR0913 - a Typer verb: a parameter for each option
         preset=chosen.model_copy(update={"episodes": episodes or chosen.episodes}),
         scenario=table_of(design),
         team=team,
+        design_unknown=design_unknown,
     )
     who = f"{len(team.starts)}-builders" if team else config.agent
     with output_folder(out, f"{design.name}-{who}") as path:
@@ -200,6 +212,19 @@ def train(  # noqa: PLR0913 - a Typer verb: a parameter for each option
 
 app.command()(serve)
 app.command("keys")(make_keys)
+
+
+def _check_unknown(context: typer.Context, preset: str, agent: str, scenario: Scenario) -> None:
+    """Raise UserError, one line, if a design can't be unknown in such a training."""
+    if preset != ANY_DESIGN:
+        raise UserError(f"--design-unknown is for the agent with objectives: add --preset {ANY_DESIGN}")
+    if agent != "nested":
+        raise UserError(f"--design-unknown is for the nested agent: leave out --agent {agent}")
+    for option in NOT_UNKNOWN:
+        if option in given(context):
+            raise UserError(f"{option} doesn't go with --design-unknown: leave it out")
+    if scenario.parts:  # what a cell pays would depend on the part
+        raise UserError(f"--design-unknown knows no parts, and {scenario.name} has some: take another design")
 
 
 def _team(scenario: Scenario, builders: int | None, starts: list[str] | None, networks: str | None) -> TeamTable | None:

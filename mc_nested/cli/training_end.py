@@ -37,17 +37,17 @@ def draw_results(folder: RunFolder, training: Training) -> None:
     """Draw the curve; what was learnt of the arena, if anything was; and what several builders build, once they can."""
     config, scenario = folder.config, folder.scenario
     with folder.writing(), atomic_write(folder.path / CURVE) as path:
-        if training.imagination:
+        if training.practice.known:
             played = played_by(training.episode_rows, training.evaluation_rows, config.trials)
             draw_played_curve(path, config.title, played, scenario.optimum)
         else:
             rows = [(row.trial, row.episode, row.score) for row in training.evaluation_rows]
             episodes, scores = align_trials(rows, config.trials)
             draw_curve(path, config.title, episodes, scores, scenario.optimum)
-    if training.imagination:
+    if training.practice.known:
         which = f", the first of {config.trials} trials" if config.trials > 1 else ""
         with folder.writing(), atomic_write(folder.path / MAP) as path:
-            draw_map(path, config.title + which, training.imagination.known_arena(0))
+            draw_map(path, config.title + which, training.practice.known.known_arena(0))
     if training.finished:
         _draw_team(folder, int(training.policy_scores.argmax()))
 
@@ -109,7 +109,7 @@ def say_end(output: Output, path: Path, config: RunConfig, summary: Mapping[str,
         )
     lines += [f"final scores (optimum {summary['optimum']:g}): {scores}"]
     lines += [f"run:        {path}", f"curve:      {path / CURVE}"]
-    if config.preset.imagination:
+    if config.preset.imagination or config.design_unknown:
         lines.append(f"map:        {path / MAP}")
     if config.team:
         lines.append(f"picture:    {path / PICTURE}")
@@ -136,7 +136,8 @@ def next_steps(path: Path, config: RunConfig, is_at_optimum: bool) -> list[str]:
 
 def words_for_more(path: Path, config: RunConfig) -> list[str]:
     """Return the words that train twice as many episodes, beginning with the best policy of this training."""
-    words = ["mc-nested", "train", "--from", str(path), "--scenario", _named(config.scenario)]
+    words = ["mc-nested", "train", *([] if config.design_unknown else ["--from", str(path)])]
+    words += ["--scenario", _named(config.scenario), *(["--design-unknown"] if config.design_unknown else [])]
     if config.team:
         words += ["--networks", config.team.networks]
         words += [word for x, y in config.team.starts for word in ("--start", f"{x},{y}")]

@@ -126,12 +126,12 @@ class TrainingView:
     def _look(self) -> None:
         """See what the first trial has found out of its game, now and then."""
         trainer, now = self._trainer, time.monotonic()
-        if trainer.imagination is None:
+        if trainer.practice.known is None:
             main, nested = (float(epsilon.mean()) for epsilon in trainer.epsilon)
             self._exploring = f"ε {main:.2f}, {nested:.2f} (main agent, nested agent)"
         elif now >= self._next_look:
             self._next_look = now + LOOK_EVERY_S
-            seen = trainer.imagination.known_arena(0)
+            seen = trainer.practice.known.known_arena(0)
             doing = "probing" if seen.explores else "building"
             of_several = "trial 0: " if self._trials > 1 else ""
             self._exploring = f"{of_several}{doing}, {seen.known_to_pay} of {self._scenario.blocks} cells known"

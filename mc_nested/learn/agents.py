@@ -226,6 +226,17 @@ class Agent:
             epsilon, uniforms = self._of_builders(epsilon), uniforms.reshape(-1, CHOICE_NUMBERS)
         return self.low_level.act(states, epsilon, uniforms, rows)
 
+    def foretold(self, states: NDArray[Any], materials: Int64s, epsilon: Float64s, uniforms: Float64s) -> Int64s:
+        """Return what ``act`` will, before the step that leads there is done; NO_ACTION where that isn't known."""
+        return self.act(states, materials, epsilon, uniforms)
+
+    def begin_episodes(self, runs: Int64s) -> Int64s:
+        """Return the materials with which the named runs' episodes begin, (k,), where no main agent's learner chooses.
+
+        The single agent chooses by its actions: it doesn't matter which.
+        """
+        return np.zeros(len(runs), dtype=np.int64)
+
     @property
     def forms(self) -> dict[str, NetworkForm]:
         """What the networks are, by role."""

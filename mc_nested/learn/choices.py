@@ -46,9 +46,9 @@ class OwnChoices:
     def __init__(self, agent: Agent) -> None:
         self._agent = agent
 
-    def begin(self, rows: Int64s, epsilon: Float64s, numbers: Float64s) -> Int64s:  # noqa: ARG002 - nobody chooses yet
-        """Return the materials with which the episodes of the named runs (k,) begin: it doesn't matter which."""
-        return np.zeros(len(rows), dtype=np.int64)
+    def begin(self, rows: Int64s, epsilon: Float64s, numbers: Float64s) -> Int64s:  # noqa: ARG002 - nothing is drawn
+        """Return the materials with which the episodes of the named runs (k,) begin."""
+        return self._agent.begin_episodes(rows)
 
     def in_hand(self, actions: Int64s, materials: Int64s) -> Int64s:  # noqa: ARG002 - an action says it
         """Return the actions as the arenas take them."""

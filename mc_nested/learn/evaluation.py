@@ -57,7 +57,7 @@ def play_greedily(
     never, unused = np.zeros(runs), np.ones((runs, CHOICE_NUMBERS))
     of_builders = np.ones((runs, CHOICE_NUMBERS * builders))
     start = agent.start_states(scenarios)
-    materials = agent.main.act(start, never, unused) if agent.main else np.zeros(runs, dtype=np.int64)
+    materials = agent.main.act(start, never, unused) if agent.main else agent.begin_episodes(np.arange(runs))
     observations, _ = env.reset(options={"material": np.repeat(materials, builders)})
     episodes = [GreedyEpisode() for _ in scenarios]
     running = np.ones(runs, dtype=np.bool_)

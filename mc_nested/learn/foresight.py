@@ -29,6 +29,6 @@ def announce(
         due = np.flatnonzero(chooses)
         materials, greedy = materials.copy(), (np.zeros(len(due)), np.ones((len(due), CHOICE_NUMBERS)))
         materials[due] = agent.main.act(observations[due], *greedy, due)
-    actions = agent.act(agent.low_level_states(observations, materials), materials, epsilon, numbers)
+    actions = agent.foretold(agent.low_level_states(observations, materials), materials, epsilon, numbers)
     actions = np.where(known & goes_on, actions, NO_ACTION)
     arenas.announce(np.stack((actions, materials), axis=1) if takes.ndim > 1 else actions)

@@ -160,8 +160,10 @@ def imagination_of(agent: Agent, scenarios: Sequence[Scenario], preset: Preset, 
     """
     if preset.imagination is None or agent.main is None:
         return None
-    known = [
-        Surroundings(scenario.start_state, scenario.size, scenario.step_limit, len(scenario.materials))
-        for scenario in scenarios
-    ]
+    known = surroundings_of(scenarios)
     return Imagination(agent.main, agent.low_level, known, preset, preset.imagination, seed, agent.runs)
+
+
+def surroundings_of(scenarios: Sequence[Scenario]) -> list[Surroundings]:
+    """Return what is known of each scenario from the beginning: nothing of its design but how many blocks it has."""
+    return [Surroundings(each.start_state, each.size, each.step_limit, len(each.materials)) for each in scenarios]

@@ -16,6 +16,7 @@ from mc_nested.arrays import Arrays, Bools, Float64s, Int64s
 from mc_nested.learn.agents import Agent
 from mc_nested.learn.imagination.first_tries import FirstTries
 from mc_nested.learn.imagination.imagination import Imagination
+from mc_nested.learn.imagination.known_arena import Knowing
 from mc_nested.learn.preset import Preset
 
 
@@ -62,6 +63,11 @@ class Practice:
 
     imagination: Imagination | None = None
     """What the runs have learnt of their games; None if the preset has no [imagination]."""
+
+    @property
+    def known(self) -> Knowing | None:
+        """What the runs know of their arenas; None if they learn no more than values."""
+        return self.imagination
 
     def __init__(self, agent: Agent, preset: Preset) -> None:
         self._agent, self._preset = agent, preset

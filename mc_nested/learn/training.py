@@ -21,6 +21,7 @@ from mc_nested.learn.imagination.imagination import Imagination
 from mc_nested.learn.learnt_game import LearntGame, LearntGameBesideIt, imagination_of
 from mc_nested.learn.practice import Practice
 from mc_nested.learn.preset import Preset
+from mc_nested.learn.unknown_design import Tries, UnknownDesigns
 
 
 class Training:
@@ -174,6 +175,8 @@ def practice_of(
     agent: Agent, scenarios: Sequence[Scenario], preset: Preset, seed: int, background: Background | None
 ) -> Practice:
     """Return the preset's practice, for the agent's runs; in the background, if there is one, where it can be."""
+    if isinstance(agent, UnknownDesigns):
+        return Tries(agent, preset)
     if preset.excursions:
         return Excursions(agent, preset, preset.excursions, scenarios)
     imagination = imagination_of(agent, scenarios, preset, seed)

@@ -13,7 +13,7 @@ from enum import IntEnum
 import numpy as np
 
 from mc_nested.arena.action import Cell
-from mc_nested.arrays import Bools, Float32s, Int8s, Int64s
+from mc_nested.arrays import Bools, Float32s, Float64s, Int8s, Int64s
 from mc_nested.learn.imagination.experience import UNTOLD
 from mc_nested.learn.imagination.learnt_rules import FADES
 
@@ -61,13 +61,37 @@ def believe(
     Cells that are probed ``elsewhere``, in other games, are taken to pay nothing, unless no other unknown cell is left.
     ``walls`` (size, size) pay nothing.
     """
-    evidence = np.zeros((2, size, size))
+    evidence = no_evidence(size)
     told = (steps[:, 2] > steps[:, 6]) & (steps[:, 7] != UNTOLD)
     for x, y, paid in steps[told][:, [4, 5, 7]].tolist():
-        cell = (x + lands[0], y + lands[1])
-        if 0 <= cell[0] < size and 0 <= cell[1] < size:
-            evidence[:, cell[0], cell[1]] *= FADES
-            evidence[paid, cell[0], cell[1]] += 1.0
+        count_try(evidence, (x + lands[0], y + lands[1]), paid)
+    return beliefs_of(evidence, lands, blocks, optimism, neighbours, elsewhere, walls)
+
+
+def no_evidence(size: int) -> Float64s:
+    """Return the evidence before any try: how much says of each cell that it doesn't pay, and that it does."""
+    return np.zeros((2, size, size))
+
+
+def count_try(evidence: Float64s, cell: Cell, paid: int) -> None:
+    """Add to the evidence (2, size, size) that a block in that cell was ``paid``, 1, or wasn't, 0."""
+    size = evidence.shape[1]
+    if 0 <= cell[0] < size and 0 <= cell[1] < size:
+        evidence[:, cell[0], cell[1]] *= FADES
+        evidence[paid, cell[0], cell[1]] += 1.0
+
+
+def beliefs_of(
+    evidence: Float64s,
+    lands: Cell,
+    blocks: int,
+    optimism: bool = True,
+    neighbours: bool = True,
+    elsewhere: Collection[Cell] = (),
+    walls: Bools | None = None,
+) -> Beliefs:
+    """Return what evidence (2, size, size) says of every cell; the rest as for ``believe``."""
+    size = evidence.shape[1]
     tried = evidence.any(axis=0)
     free = np.ones((size, size), dtype=np.bool_) if walls is None else ~walls
     unknown = ~tried & _reached(lands, size) & free

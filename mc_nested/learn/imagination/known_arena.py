@@ -1,7 +1,7 @@
 """What a run knows of its arena, for those who watch: what it believes, and where the blocks of its episodes went."""
 
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import NamedTuple, Protocol
 
 import numpy as np
 
@@ -47,6 +47,16 @@ class KnownArena:
     def known_to_pay(self) -> int:
         """Cells that are known to pay."""
         return int((self.cells == Belief.PAYS).sum())
+
+
+class Knowing(Protocol):
+    """Runs that find out what their arenas are like."""
+
+    def episodes(self, run: int) -> int:
+        """Return how many real episodes that run has begun."""
+
+    def known_arena(self, run: int) -> KnownArena:
+        """Return what that run knows of its arena now."""
 
 
 def known_arena(experience: Experience, lands: Cell, beliefs: Beliefs) -> KnownArena:

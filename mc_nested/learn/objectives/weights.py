@@ -8,7 +8,8 @@ import numpy as np
 from safetensors import SafetensorError
 from safetensors.numpy import load, save
 
-from mc_nested.arena.scenario import Scenario
+from mc_nested.arena.action import Cell
+from mc_nested.arena.scenario import Material, Scenario
 from mc_nested.arrays import Float32s
 from mc_nested.atomic_file import atomic_write
 from mc_nested.errors import RunError
@@ -52,6 +53,11 @@ def agent_of(weights: Weights, scenario: Scenario) -> ObjectiveAgent:
         return ObjectiveAgent(weights.main, weights.nested, scenario)
     except ValueError as error:
         raise RunError(f"{FILE}: its weights are of another version ({error}): install the package again") from error
+
+
+def agent_for_cells(weights: Weights, cells: frozenset[Cell], size: int) -> ObjectiveAgent:
+    """Return the agent that builds these cells of an arena of that size; RunError as ``agent_of``."""
+    return agent_of(weights, Scenario("cells", cells, (0, 0), 0, (Material("any", 0.0, "any"),), size))
 
 
 def _parsed(content: bytes, source: str) -> Weights:

@@ -44,6 +44,7 @@ class RunConfig(BaseModel):
     preset: Preset
     scenario: ScenarioTable
     team: TeamTable | None = None
+    design_unknown: bool = False
 
     @property
     def title(self) -> str:
@@ -53,14 +54,16 @@ class RunConfig(BaseModel):
             count = len(self.team.starts)
             who = f"{count} builders" if count > 1 else "one builder"
             who += f", networks {self.team.networks}"
-        return f"{self.scenario.name}, {who}, preset {Path(self.preset_name).stem}"
+        unknown = ", design unknown" if self.design_unknown else ""
+        return f"{self.scenario.name}, {who}, preset {Path(self.preset_name).stem}{unknown}"
 
     def identity(self) -> dict[str, Any]:
         """Return what is trained: a checkpoint fits only the same.
 
         Without the profile, which may be moved or renamed, and the device.
         """
-        return self.model_dump(exclude={"format": True, "profile": True, "preset": {"device"}})
+        usual = {} if self.design_unknown else {"design_unknown": True}
+        return self.model_dump(exclude={"format": True, "profile": True, "preset": {"device"}, **usual})
 
     def on_device(self, device: str) -> "RunConfig":
         """Return the same training, computed elsewhere; PresetError if its engine can't."""

@@ -18,12 +18,15 @@ from mc_nested.errors import RunError, ScenarioError
 from mc_nested.learn.agents import AGENT_SPECS, Agent
 from mc_nested.learn.episode_log import EpisodeRow, EvaluationRow
 from mc_nested.learn.imagination.imagination import learnt_game
+from mc_nested.learn.learnt_game import surroundings_of
+from mc_nested.learn.objectives.weights import shipped_weights
 from mc_nested.learn.runs.checkpoint import Checkpoint, sealed, unsealed
 from mc_nested.learn.runs.folder_kind import check_config, check_free
 from mc_nested.learn.runs.folder_lock import holder_of
 from mc_nested.learn.runs.run_config import RunConfig
 from mc_nested.learn.runs.summary import summarise
 from mc_nested.learn.training import Training
+from mc_nested.learn.unknown_design import UnknownDesigns
 from mc_nested.toml_file import parse_toml, read_toml_text
 
 CONFIG, SUMMARY = "config.toml", "summary.json"
@@ -69,6 +72,8 @@ class RunFolder:
     def new_agent(self, runs: int, device: str = "cpu") -> Agent:
         """Return an untrained agent as this training's, with that many runs, on the processor or another device."""
         config = self.config
+        if config.design_unknown:
+            return UnknownDesigns(shipped_weights(), surroundings_of([self.scenario] * runs))
         preset = config.preset.model_copy(update={"device": device})
         builders = config.team.builders if config.team else None
         return Agent(AGENT_SPECS[config.agent], [self.scenario] * runs, preset, config.seed, team=builders)
