@@ -11,9 +11,9 @@ from pathlib import Path
 
 from calibration.context import OpenContext
 from calibration.step_profile import starting_profile
-from mc_nested.arena.action import Cell
+from mc_nested.arena.action import LARGEST_SIZE, Cell
 from mc_nested.arena.rules import is_inside
-from mc_nested.arena.scenario import DEFAULT_SIZE, LARGEST_SIZE
+from mc_nested.arena.scenario import DEFAULT_SIZE
 from mc_nested.errors import ProfileError, UserError
 from mc_nested.live.devices import SWITCH_KEYS
 from mc_nested.live.menus.wait_for_player import wait_until_standing_still

@@ -1,4 +1,4 @@
-"""What an agent can do, and where: the eight actions and a cell. What an action leads to is in rules.py."""
+"""What an agent can do, and where: the eight actions, a cell, the sizes of arenas. What an action leads to: rules.py."""
 
 from enum import IntEnum
 
@@ -17,3 +17,8 @@ class Action(IntEnum):
     LD = 5
     RD = 6
     BD = 7
+
+
+SMALLEST_SIZE, LARGEST_SIZE = 5, 32
+"""The sizes that an arena may have, both included. An arena of 32 is cleared, and copied, by one command
+(FACTS: Commands), and seen whole in a terminal."""

@@ -17,7 +17,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mc_nested.arena.action import Cell
+from mc_nested.arena.action import LARGEST_SIZE, SMALLEST_SIZE, Cell
 from mc_nested.arrays import Float64s, Int64s
 from mc_nested.errors import ScenarioError
 
@@ -97,10 +97,6 @@ def regions_of(size: int, count: int) -> Int64s:
 
 DEFAULT_SIZE = 15
 """Cells along each side of the arena, unless a scenario says otherwise (paper, section 5: a 15 by 15 grid)."""
-
-SMALLEST_SIZE, LARGEST_SIZE = 5, 32
-"""The sizes that an arena may have, both included. An arena of 32 is cleared, and copied, by one command
-(FACTS: Commands), and seen whole in a terminal."""
 
 
 @dataclass(frozen=True)

@@ -8,9 +8,9 @@ from typing import Annotated
 
 from pydantic import BaseModel, ConfigDict, Field
 
-from mc_nested.arena.action import Cell
+from mc_nested.arena.action import LARGEST_SIZE, SMALLEST_SIZE, Cell
 from mc_nested.arena.builder import can_be_built, out_of_reach, within_reach
-from mc_nested.arena.scenario import LARGEST_SIZE, SMALLEST_SIZE, Material, Part, Scenario
+from mc_nested.arena.scenario import Material, Part, Scenario
 from mc_nested.errors import ScenarioError
 from mc_nested.toml_file import parse_toml, read_shipped_or_named
 

@@ -10,7 +10,7 @@ from mc_nested.arena.game import PlayLog
 from mc_nested.arena.vector import ArenaVectorEnv
 from mc_nested.cli.options import played_live
 from mc_nested.errors import DesktopError, LiveError, NotInFrontError
-from mc_nested.learn.objectives.training import ObjectivesTraining
+from mc_nested.learn.objective_training import ObjectivesTraining
 from mc_nested.learn.runs.run_folder import RunFolder
 from mc_nested.learn.trainer import Trainer
 from mc_nested.live.action_log import FailureBudget

@@ -13,9 +13,9 @@ from dataclasses import replace
 
 import numpy as np
 
-from mc_nested.arena.action import Cell
+from mc_nested.arena.action import LARGEST_SIZE, Cell
 from mc_nested.arena.design import scenario_of_design
-from mc_nested.arena.scenario import DEFAULT_SIZE, LARGEST_SIZE, Scenario
+from mc_nested.arena.scenario import DEFAULT_SIZE, Scenario
 from mc_nested.arena.scenario_file import LONGEST_NAME, load_scenario
 from mc_nested.arrays import Bools
 from mc_nested.design_files.volume import Volume

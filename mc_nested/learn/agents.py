@@ -28,9 +28,8 @@ from mc_nested.learn.builders import Builders, check_builders
 from mc_nested.learn.dqn.engine import NetworkForm
 from mc_nested.learn.dqn.engines import NUMBERS, OBJECTIVES, SCREEN
 from mc_nested.learn.dqn.replay import ReplayMark
-from mc_nested.learn.dqn.states import PackedPlanes, PlaneStates, States, StateSpace
+from mc_nested.learn.dqn.states import OBJECTIVE_PLANES, PackedPlanes, PlaneStates, States, StateSpace
 from mc_nested.learn.learner import CHOICE_NUMBERS, Learner, summed_by_run
-from mc_nested.learn.objectives.arenas import PLANES as OBJECTIVE_PLANES
 from mc_nested.learn.objectives.arenas import side_for
 from mc_nested.learn.preset import Preset
 from mc_nested.learn.streams import initial_stream

@@ -6,7 +6,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
 
-from mc_nested.arena.scenario import LARGEST_SIZE, SMALLEST_SIZE
+from mc_nested.arena.action import LARGEST_SIZE, SMALLEST_SIZE
 from mc_nested.errors import PresetError
 from mc_nested.learn.dqn.engines import OBJECTIVES, ORDER, EngineChoice, misfit
 from mc_nested.toml_file import parse_toml, read_shipped_or_named

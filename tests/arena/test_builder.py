@@ -6,11 +6,11 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mc_nested.arena.action import Cell
+from mc_nested.arena.action import LARGEST_SIZE, SMALLEST_SIZE, Cell
 from mc_nested.arena.builder import build, build_with_materials, out_of_reach, within_reach
 from mc_nested.arena.env import step_in
 from mc_nested.arena.rules import landing, moved
-from mc_nested.arena.scenario import LARGEST_SIZE, SMALLEST_SIZE, Material, Part, Scenario
+from mc_nested.arena.scenario import Material, Part, Scenario
 from mc_nested.arena.scenario_file import load_scenario, shipped_scenarios
 from sim.grid import arena_env
 

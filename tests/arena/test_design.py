@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mc_nested.arena.action import Cell
+from mc_nested.arena.action import SMALLEST_SIZE, Cell
 from mc_nested.arena.builder import build
 from mc_nested.arena.design import (
     BESIDE,
@@ -22,7 +22,7 @@ from mc_nested.arena.design import (
     neighbours,
     scenario_of_design,
 )
-from mc_nested.arena.scenario import SMALLEST_SIZE, Scenario
+from mc_nested.arena.scenario import Scenario
 from mc_nested.arena.scenario_file import load_scenario
 from mc_nested.arena.search import fewest_steps
 

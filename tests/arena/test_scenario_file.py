@@ -7,9 +7,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mc_nested.arena.action import Cell
+from mc_nested.arena.action import LARGEST_SIZE, SMALLEST_SIZE, Cell
 from mc_nested.arena.builder import build
-from mc_nested.arena.scenario import DEFAULT_SIZE, LARGEST_SIZE, SMALLEST_SIZE, Material, Part, Scenario
+from mc_nested.arena.scenario import DEFAULT_SIZE, Material, Part, Scenario
 from mc_nested.arena.scenario_file import (
     draw_grid,
     load_scenario,

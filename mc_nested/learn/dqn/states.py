@@ -16,6 +16,11 @@ from numpy.typing import NDArray
 
 from mc_nested.arrays import Float32s, Int64s, Integers
 
+WANTED, OCCUPIED, AGENT = range(3)
+"""What agents with objectives see: the objective, or all cells still to build; what stands; and where the agent is."""
+
+OBJECTIVE_PLANES = 3
+
 
 class States(Protocol):
     """What the rows of a learner see and do."""

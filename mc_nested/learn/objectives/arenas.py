@@ -12,11 +12,7 @@ from mc_nested.arena.action import Action, Cell
 from mc_nested.arena.rules import PLACES, STEP
 from mc_nested.arrays import Bools, Int64s
 from mc_nested.compiled import compiled
-
-PLANES = 3
-"""What both agents see: the objective, or all cells still to build; what stands; and where the agent is."""
-
-WANTED, OCCUPIED, AGENT = range(PLANES)
+from mc_nested.learn.dqn.states import AGENT, OBJECTIVE_PLANES, OCCUPIED, WANTED
 
 NOWHERE = -1
 """Both coordinates of the cell where no block landed, and of no objective."""
@@ -59,14 +55,14 @@ def outside(size: int, side: int) -> Bools:
 
 
 def planes_of(wanted: Bools, occupied: Bools, agents: Int64s) -> Bools:
-    """Return what an agent sees of R arenas, (R, PLANES, side, side).
+    """Return what an agent sees of R arenas, (R, OBJECTIVE_PLANES, side, side).
 
     Args:
         wanted: the objective, or the cells still to build, (R, side, side).
         occupied: (R, side, side).
         agents: where the agents are, (R, 2).
     """
-    planes = np.zeros((len(agents), PLANES, *occupied.shape[1:]), np.bool_)
+    planes = np.zeros((len(agents), OBJECTIVE_PLANES, *occupied.shape[1:]), np.bool_)
     planes[:, WANTED], planes[:, OCCUPIED] = wanted, occupied
     planes[np.arange(len(agents)), AGENT, agents[:, 0], agents[:, 1]] = True
     return planes

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
 
 from mc_nested.arrays import Bools, Float32s, Int64s
-from mc_nested.learn.objectives.arenas import AGENT, OCCUPIED, WANTED
+from mc_nested.learn.dqn.states import AGENT, OCCUPIED, WANTED
 
 NONE = np.float32(-1e6)
 """The value of a cell that isn't to be built."""
@@ -81,7 +81,7 @@ class ReachNetwork:
         self._seen, self._maps, *self._dense = layers_of(parameters, self.SHAPES)
 
     def reaching(self, planes: Bools) -> Reaching:
-        """Return what is known of the objectives of planes (R, PLANES, side, side)."""
+        """Return what is known of the objectives of planes (R, OBJECTIVE_PLANES, side, side)."""
         seen = planes[:, :AGENT].astype(np.float32)
         maps = sigmoid(convolved(relu(convolved(seen, self._seen)), self._maps))
         return Reaching(spread(maps[:, 1], maps[:, 0]), framed_wide(seen))
@@ -119,7 +119,7 @@ class OrderNetwork:
         self._passing, self._seen, self._farther, self._farthest, self._axes, *self._dense = layers
 
     def values(self, planes: Bools) -> Float32s:
-        """Return the value of each cell (R, side, side) in planes (R, PLANES, side, side); NONE if it isn't wanted."""
+        """Return each cell's value (R, side, side) in planes (R, planes, side, side); NONE if it isn't wanted."""
         seen = planes.astype(np.float32)
         agents = np.repeat(seen[:, AGENT:], 2, axis=1)
         near = spread(agents, sigmoid(convolved(seen[:, :AGENT], self._passing)))

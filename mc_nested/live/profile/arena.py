@@ -4,8 +4,8 @@ import math
 
 from pydantic import BaseModel, ConfigDict, Field, model_validator
 
-from mc_nested.arena.action import Cell
-from mc_nested.arena.scenario import DEFAULT_SIZE, LARGEST_SIZE, Scenario
+from mc_nested.arena.action import LARGEST_SIZE, Cell
+from mc_nested.arena.scenario import DEFAULT_SIZE, Scenario
 from mc_nested.live.model import coordinates
 from mc_nested.live.model.coordinates import Facing, GroundVector
 from mc_nested.live.model.reading import Block

@@ -6,11 +6,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mc_nested.arena.action import Action, Cell
+from mc_nested.arena.action import SMALLEST_SIZE, Action, Cell
 from mc_nested.arena.cooperative.team import Team, resolved, spread_starts, team_of
 from mc_nested.arena.game import Outcome
 from mc_nested.arena.rules import landing, moved
-from mc_nested.arena.scenario import SMALLEST_SIZE
 from mc_nested.arena.scenario_file import load_scenario
 from mc_nested.errors import ScenarioError
 

@@ -5,7 +5,7 @@ import numpy as np
 from mc_nested.arena.scenario import Scenario
 from mc_nested.arrays import Float32s
 from mc_nested.learn.agents import AGENT_SPECS, Agent
-from mc_nested.learn.objectives.training import ObjectivesTraining
+from mc_nested.learn.objective_training import ObjectivesTraining
 from mc_nested.learn.preset import Preset, load_preset
 
 ANY_DESIGN = load_preset("any-design")

@@ -7,11 +7,9 @@ from hypothesis import strategies as st
 
 from mc_nested.arena.action import Action, Cell
 from mc_nested.arena.rules import landing, moved
+from mc_nested.learn.dqn.states import AGENT, OCCUPIED, WANTED
 from mc_nested.learn.objectives.arenas import (
-    AGENT,
     NOWHERE,
-    OCCUPIED,
-    WANTED,
     framed,
     framed_cells,
     out_of_frame,

@@ -11,7 +11,7 @@ import torch
 from torch import Tensor, nn
 from torch.nn.functional import pad
 
-from mc_nested.learn.objectives.arenas import AGENT, OCCUPIED, WANTED
+from mc_nested.learn.dqn.states import AGENT, OCCUPIED, WANTED
 
 SWEEPS_A_CELL = 1.5
 """Sweeps for each cell of a side: a way past what stands is longer than straight on."""

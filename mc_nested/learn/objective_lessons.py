@@ -16,8 +16,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from mc_nested.arena.action import Action
-from mc_nested.arena.scenario import SMALLEST_SIZE
+from mc_nested.arena.action import SMALLEST_SIZE, Action
 from mc_nested.arrays import Arrays, Bools, Float64s, Int64s
 from mc_nested.learn.dqn.replay import Transitions
 from mc_nested.learn.learner import Learner

@@ -7,10 +7,10 @@ from mc_nested.arena.action import Action
 from mc_nested.arena.scenario_file import load_scenario
 from mc_nested.errors import PresetError
 from mc_nested.learn.agents import AGENT_SPECS, Agent
+from mc_nested.learn.dqn.states import AGENT, OCCUPIED, WANTED
 from mc_nested.learn.evaluation import play_greedily
-from mc_nested.learn.objectives.arenas import AGENT, OCCUPIED, WANTED
-from mc_nested.learn.objectives.lessons import rate_after
-from mc_nested.learn.objectives.training import ObjectivesTraining
+from mc_nested.learn.objective_lessons import rate_after
+from mc_nested.learn.objective_training import ObjectivesTraining
 from mc_nested.learn.preset import load_preset
 from sim.grid import GridVectorEnv
 from tests.learn.made_trainings import assert_same, saved

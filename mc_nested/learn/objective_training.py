@@ -15,8 +15,8 @@ from mc_nested.arrays import Arrays, named_for, part_of
 from mc_nested.errors import PresetError
 from mc_nested.learn.agents import Agent
 from mc_nested.learn.episode_log import EpisodeRow, EvaluationRow
+from mc_nested.learn.objective_lessons import MainLessons, NestedLessons
 from mc_nested.learn.objectives.decide import ObjectiveAgent, built_by_the_rules
-from mc_nested.learn.objectives.lessons import MainLessons, NestedLessons
 from mc_nested.learn.objectives.networks import ReachNetwork
 from mc_nested.learn.practice import Practice
 from mc_nested.learn.preset import Preset
