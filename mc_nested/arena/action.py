@@ -1,4 +1,4 @@
-"""What an agent can do, and where: the eight actions, a cell, the sizes of arenas. What an action leads to: rules.py."""
+"""What an agent can do, and where: the eight actions, a cell, the sizes of arenas. What they lead to is in rules.py."""
 
 from enum import IntEnum
 
