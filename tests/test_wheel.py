@@ -135,7 +135,7 @@ def test_the_installed_wheel_reads_all_its_files(installed: Installed) -> None:
     where = installed.python(PLACES)
     assert all(Path(path).is_relative_to(installed.bin.parent) for path in where.split())
     assert installed.python(READS_ALL).splitlines() == [
-        "7 ['image', 'model-based', 'paper', 'tuned'] True",
+        "7 ['any-design', 'image', 'model-based', 'paper', 'tuned'] True",
         "True",
         "True 500 (128, 128, 4)",
     ]
