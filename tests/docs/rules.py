@@ -29,7 +29,7 @@ SIZES = {
     "mc-nested train --scenario line --builders 2": "--trials 1 --episodes 20",
     "python scripts/examples/sb3_dqn.py": "--steps 100",
     "python scripts/examples/cleanrl_dqn.py": "--steps 300",
-    "python scripts/bench.py any-design": "--designs 1",
+    "python scripts/bench.py any-design": "--designs 1 --seed 1",
     "python scripts/bench.py calibration": "--clients 1 --actions 2",
     "python scripts/bench.py costs": "--trials 1 --episodes 30 --rounds 1",
     "python scripts/bench.py calibration --every-version": "--version 26.3 --actions 2",
