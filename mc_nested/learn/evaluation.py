@@ -12,7 +12,7 @@ from mc_nested.arena.action import Cell
 from mc_nested.arena.env import BLOCKS_LEFT, X, Y
 from mc_nested.arena.rules import front_of
 from mc_nested.arena.scenario import Scenario
-from mc_nested.arena.vector import NO_ACTION, foresees
+from mc_nested.arena.vector import NO_ACTION, Foreseeing, foresees
 from mc_nested.arrays import Bools, Int64s
 from mc_nested.learn.agents import Agent
 from mc_nested.learn.foresight import announce
@@ -110,9 +110,10 @@ def _build_greedily(
     takes, plans = decided(observations, blocks, plans, running)
     while running.any():
         if foresees(env):
-            expected, goes_on, _ = env.expected(takes)  # type: ignore[attr-defined]  # it says so itself
+            arenas: Foreseeing = env  # type: ignore[assignment]  # it says so itself
+            expected, goes_on, _ = arenas.expected(takes)
             following, _ = decided(expected, stand(observations, expected), plans, running & goes_on)
-            env.announce(following)  # type: ignore[attr-defined]
+            arenas.announce(following)
         before = observations
         observations, _, terminated, truncated, info = env.step(takes)
         blocks = stand(before, observations)

@@ -49,7 +49,7 @@ def rate_after(share: float) -> float:
     return next((rate for until, rate in RATES if share < until), RATES[-1][1])
 
 
-class Done(NamedTuple):
+class DesignDone(NamedTuple):
     """An episode of the main agent that has ended: the share of its design that stands, and its steps."""
 
     share: float
@@ -192,7 +192,7 @@ class MainLessons(_Lessons):
 
     def round(
         self, random: np.random.Generator, nested: ReachNetwork, epsilon: float, share: float, gamma: float, rate: float
-    ) -> list[Done]:
+    ) -> list[DesignDone]:
         """Let the nested agent reach an objective in every arena, then do updates; return the episodes that ended."""
         for arena in self._is_fresh.nonzero()[0].tolist():
             self._begin(arena, random)
@@ -217,7 +217,7 @@ class MainLessons(_Lessons):
         self._store(before, chosen, np.maximum(rewards, lowest), after, discounts)
         self._update(random, share, rate)
         ended = self._is_fresh.nonzero()[0]
-        return [Done(self._built[arena] / self._blocks[arena], int(self._steps[arena])) for arena in ended]
+        return [DesignDone(self._built[arena] / self._blocks[arena], int(self._steps[arena])) for arena in ended]
 
     def _begin(self, arena: int, random: np.random.Generator) -> None:
         size = drawn_size(random, SMALLEST_SIZE, self._largest)

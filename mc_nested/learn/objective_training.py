@@ -27,7 +27,7 @@ SAID_EVERY = 1000
 """Updates of the nested agent from one line about it to the next."""
 
 
-class _Lessons(Practice):
+class _LessonNews(Practice):
     """What a user should know while no episode is played."""
 
     def __init__(self, agent: Agent, preset: Preset) -> None:
@@ -53,7 +53,7 @@ class ObjectivesTraining(Training):
         if len(scenarios) > 1 or rule is None or main is None or exploration is None:
             raise PresetError("[objectives] trains one nested agent at a time: leave out --trials and --agent")
         super().__init__(scenarios, agent, preset, seed, stop_at_optimum)
-        self.practice: _Lessons = _Lessons(agent, preset)
+        self.practice: _LessonNews = _LessonNews(agent, preset)
         self._scenario, self._rule, self._seed = scenarios[0], rule, seed
         self._nested = NestedLessons(agent.low_level, rule, exploration)
         self._main = MainLessons(main, rule)

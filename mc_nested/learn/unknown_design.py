@@ -94,12 +94,12 @@ class UnknownDesigns(Agent):
         now: Int64s = self._materials_now.copy()
         return now
 
-    def act(self, states: NDArray[Any], materials: Int64s, epsilon: Float64s, uniforms: Float64s) -> Int64s:  # noqa: ARG002
+    def act(self, states: NDArray[Any], materials: Int64s, epsilon: Float64s, uniforms: Float64s) -> Int64s:  # noqa: ARG002 - no chance
         """Return what every run does next, (runs,); each call is a step of its episode."""
         actions = [self._next(run, row, self._episodes[run]) for run, row in enumerate(states.tolist())]
         return np.array(actions, dtype=np.int64)
 
-    def foretold(self, states: NDArray[Any], materials: Int64s, epsilon: Float64s, uniforms: Float64s) -> Int64s:  # noqa: ARG002
+    def foretold(self, states: NDArray[Any], materials: Int64s, epsilon: Float64s, uniforms: Float64s) -> Int64s:  # noqa: ARG002 - no chance
         """Return what ``act`` will; NO_ACTION where that depends on what the block before it is paid."""
         actions = np.full(len(states), NO_ACTION)
         for run, row in enumerate(states.tolist()):
@@ -226,7 +226,7 @@ class Tries(Practice):
     def known(self) -> UnknownDesigns:
         return self._player
 
-    def before_episode(self, runs: Int64s, materials: Int64s, reset: Callable[[], None]) -> Bools:  # noqa: ARG002
+    def before_episode(self, runs: Int64s, materials: Int64s, reset: Callable[[], None]) -> Bools:  # noqa: ARG002 - no chance
         reset()
         return np.array([not self._player.beliefs(run).explores for run in runs.tolist()])
 

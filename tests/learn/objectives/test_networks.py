@@ -13,10 +13,10 @@ from mc_nested.learn.objectives.arenas import outside, plane_of_each, planes_of,
 from mc_nested.learn.objectives.networks import NONE, OrderNetwork, ReachNetwork, spread
 
 
-def made(seed: int) -> tuple[by_torch.ReachNetwork, by_torch.OrderNetwork]:
+def made(seed: int) -> tuple[by_torch.ReachModule, by_torch.OrderModule]:
     with torch.random.fork_rng():
         torch.manual_seed(seed)
-        return by_torch.ReachNetwork(8), by_torch.OrderNetwork()
+        return by_torch.ReachModule(8), by_torch.OrderModule()
 
 
 def some_arenas(

@@ -24,7 +24,7 @@ from mc_nested.learn.dqn.compiled_engine.networks import Sizes, initial_paramete
 from mc_nested.learn.dqn.engine import NetworkForm
 from mc_nested.learn.dqn.states import PackedPlanes, States, StateSpace
 from mc_nested.learn.dqn.torch_engine.layout import flat_of
-from mc_nested.learn.dqn.torch_engine.objective_networks import OrderNetwork, ReachNetwork
+from mc_nested.learn.dqn.torch_engine.objective_networks import OrderModule, ReachModule
 
 MLP, CNN, REACH, ORDER = "mlp", "cnn", "reach", "order"
 
@@ -73,9 +73,9 @@ def network_maker(network: str, hidden: Sequence[int]) -> Make:
     if network == CNN:
         return lambda shape, actions: cnn(shape, hidden, actions)
     if network == REACH:
-        return lambda _, actions: ReachNetwork(actions)
+        return lambda _, actions: ReachModule(actions)
     if network == ORDER:
-        return lambda _, __: OrderNetwork()
+        return lambda _, __: OrderModule()
     return own_maker(network)
 
 

@@ -64,7 +64,7 @@ def places_of(planes: Tensor) -> tuple[Tensor, Tensor, Tensor]:
     return torch.arange(batch, device=planes.device), place // side, place % side
 
 
-class ReachNetwork(nn.Module):
+class ReachModule(nn.Module):
     """The nested agent's: from planes (B, 3, side, side) the value of each action (B, actions).
 
     How near each cell is to where the objective can be placed from spreads through the arena. Dense layers see that
@@ -96,7 +96,7 @@ class ReachNetwork(nn.Module):
         return values
 
 
-class OrderNetwork(nn.Module):
+class OrderModule(nn.Module):
     """The main agent's: from planes (B, 3, side, side) the value of each cell as the next one (B, side * side).
 
     How near each cell is to the agent spreads twice: past what stands; and past what is still to be built, too. Cells
