@@ -8,6 +8,7 @@ import tarfile
 from pathlib import Path
 
 import pytest
+import tomlkit
 
 from scripts import windows_parts as parts
 from scripts.programs import ROOT, MissingError
@@ -37,6 +38,12 @@ def test_every_package_is_pinned_by_the_constraints_version_and_its_whole_hash()
     assert {name: version for name, version in found.items() if name not in ONLY_HERE} == {
         name: constraints.get(name) for name in found if name not in ONLY_HERE
     }
+
+
+def test_every_package_that_the_project_needs_on_windows_is_pinned() -> None:
+    project = tomlkit.parse((ROOT / "pyproject.toml").read_text("utf-8")).unwrap()["project"]
+    needed = {re.split(r"[<>=;]", line)[0] for line in project["dependencies"] if "linux" not in line}
+    assert not needed - set(pins("wheels.txt")) - set(pins("sources.txt"))
 
 
 def write_source(folder: Path, content: bytes = b"VALUE = 1\n") -> str:
