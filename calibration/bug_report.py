@@ -13,7 +13,7 @@ from pathlib import Path
 from calibration.doctor.check import Check
 from calibration.report.page import SEEN
 from calibration.report.privacy import Names
-from mc_nested.atomic_file import atomic_write
+from mc_nested.atomic_file import atomic_write, refused_as
 from mc_nested.errors import RecordingError
 from mc_nested.live.recording.cut import cut
 from mc_nested.live.recording.recording_file import facts_of, overview_of
@@ -58,12 +58,13 @@ def write_bug_report(
         parts[RECORDING], lines = _end_of(recording, seconds, names)
         said += lines
     parts[VERSIONS] = names.removed_from(json.dumps(versions, indent=2, ensure_ascii=False)).encode()
-    try:
-        with atomic_write(out) as unfinished, zipfile.ZipFile(unfinished, "w", zipfile.ZIP_DEFLATED) as file:
-            for name, content in parts.items():
-                file.writestr(name, content)
-    except OSError as error:
-        raise RecordingError(f"{out}: can't be written ({error.strerror or error}): name another file") from error
+    with (
+        refused_as(RecordingError, out, "name another file"),
+        atomic_write(out) as unfinished,
+        zipfile.ZipFile(unfinished, "w", zipfile.ZIP_DEFLATED) as file,
+    ):
+        for name, content in parts.items():
+            file.writestr(name, content)
     return said
 
 

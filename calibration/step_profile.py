@@ -11,7 +11,7 @@ import cv2
 
 from calibration.context import StepResult
 from calibration.report.findings import save_findings_or_warn
-from mc_nested.atomic_file import atomic_write
+from mc_nested.atomic_file import atomic_write, refused_as
 from mc_nested.errors import ProfileError
 from mc_nested.live.devices import Frame
 from mc_nested.live.menus.click_points import picture_bytes, picture_file
@@ -33,14 +33,10 @@ def check_writable(path: Path) -> None:
     """Raise ProfileError unless the file can be written. Its folder is created; nothing else is left behind."""
     if path.is_dir():
         raise ProfileError(f"{path}: is a folder: name the profile otherwise, with --profile")
-    try:
+    with refused_as(ProfileError, path, "mend its folder, or name another --profile"):
         path.parent.mkdir(parents=True, exist_ok=True)
         with tempfile.TemporaryFile(dir=path.parent):
             pass
-    except OSError as error:
-        raise ProfileError(
-            f"{path}: can't be written ({error.strerror or error}): mend its folder, or name another --profile"
-        ) from error
 
 
 def write_result(result: StepResult, path: Path) -> None:

@@ -28,3 +28,8 @@ def part_of(state: Mapping[str, NDArray[Any]], part: str) -> Arrays:
 def named_for(part: str, state: Mapping[str, NDArray[Any]]) -> Arrays:
     """Return a part's entries under the names that ``part_of`` finds them by."""
     return {f"{part}.{name}": kept for name, kept in state.items()}
+
+
+def copied(state: Mapping[str, NDArray[Any]]) -> Arrays:
+    """Return a copy of each array."""
+    return {name: array.copy() for name, array in state.items()}

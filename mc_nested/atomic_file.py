@@ -8,6 +8,8 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
+from mc_nested.errors import UserError
+
 SUFFIX = ".unfinished"
 """Ends the name of a file that is still being written, or that a killed process left behind."""
 
@@ -44,6 +46,15 @@ def atomic_write(path: Path) -> Iterator[Path]:
         if full:
             raise FullDiskError(errno.ENOSPC, FULL, str(path)) from error
         raise
+
+
+@contextmanager
+def refused_as(kind: type[UserError], what: Path, remedy: str) -> Iterator[None]:
+    """Raise ``kind`` where the disk refuses what the block does: one line that says what, why and the remedy."""
+    try:
+        yield
+    except OSError as error:
+        raise kind(f"{what}: can't be written ({error.strerror or error}): {remedy}") from error
 
 
 def _is_full(error: Exception, folder: Path) -> bool:

@@ -2,13 +2,13 @@
 
 import difflib
 import json
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from importlib import resources
 from pathlib import Path
 from typing import TypeVar, get_args
 
 import tomlkit
-from pydantic import BaseModel, ValidationError
+from pydantic import AfterValidator, BaseModel, ConfigDict, ValidationError
 from pydantic_core import ErrorDetails
 from tomlkit.exceptions import TOMLKitError
 
@@ -18,6 +18,23 @@ Model = TypeVar("Model", bound=BaseModel)
 
 _SHOWN = 60
 """Characters of a wrong value shown in a message: enough to find it, and still one line."""
+
+
+class TomlTable(BaseModel):
+    """A table of a TOML file: its keys are fixed, unknown ones are refused, and it never changes."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True, strict=True)
+
+
+def one_of(names: Collection[str]) -> AfterValidator:
+    """Return the check of a key that says one of these names."""
+
+    def known(name: str) -> str:
+        if name not in names:
+            raise ValueError(f"must be one of {', '.join(names)}")
+        return name
+
+    return AfterValidator(known)
 
 
 def read_toml_text(path: Path, error: type[UserError]) -> str:

@@ -1,7 +1,7 @@
 """Draws the pictures of the documentation that show a game, and README's film.
 
     python scripts/draw.py rehearsal [OUT.png]                           the rehearsal window: the diamond, half built
-    python scripts/draw.py film [OUT.gif|OUT.mp4] [--scenario zigzag]    a policy builds in the rehearsal window
+    python scripts/draw.py film [OUT.gif|OUT.mp4] [--scenario zigzag]    the agent builds in the rehearsal window
     python scripts/draw.py view [FOLDER] [--seconds 45]                  the live view, and the calibration report
     python scripts/draw.py overlap [OUT.png]                             actions that wait, and that overlap
 
@@ -126,12 +126,10 @@ def _calibrated(*options: str) -> Iterator[tuple[dict[str, str], Path, Path]]:
 
 
 def draw_film(scenario: str, out: Path) -> None:
-    """Film how a policy that was learnt in the simulator builds in the rehearsal window."""
-    with _calibrated(*FILMED) as (env, profile, run):
-        learnt = ("--scenario", scenario, "--preset", "model-based", "--stop-at-optimum", "--out", run)
-        mc_nested("train", *learnt, env=env)
+    """Film how the agent that builds any design builds this one in the rehearsal window."""
+    with _calibrated(*FILMED) as (env, profile, _):
         live = ("--backend", "live", "--profile", profile)
-        print(mc_nested("play", run, *live, "--video", out.resolve(), env=env))
+        print(mc_nested("build", scenario, "--agent", *live, "--video", out.resolve(), env=env))
 
 
 def draw_view(seconds: float, folder: Path) -> None:

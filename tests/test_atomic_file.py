@@ -1,12 +1,14 @@
 """Atomic writes: the new file, or the old one and nothing else; what a killed process leaves is recognised."""
 
 import os
+import re
 import shutil
 from pathlib import Path
 
 import pytest
 
-from mc_nested.atomic_file import FullDiskError, atomic_write, is_leftover, remove_leftovers
+from mc_nested.atomic_file import FullDiskError, atomic_write, is_leftover, refused_as, remove_leftovers
+from mc_nested.errors import RunError
 
 
 def test_the_file_is_replaced_at_the_end(tmp_path: Path) -> None:
@@ -94,3 +96,17 @@ def test_files_left_by_a_killed_process_are_recognised_and_removed(tmp_path: Pat
         (tmp_path / f"copy-{unfinished.name}").write_text("half")  # as if killed here
     remove_leftovers(tmp_path)
     assert [path.name for path in tmp_path.iterdir()] == ["state.npz"]
+
+
+def test_what_the_disk_refuses_is_one_line_with_the_file_the_reason_and_the_remedy(tmp_path: Path) -> None:
+    file = tmp_path / "missing" / "table.csv"
+    with (
+        pytest.raises(RunError, match=rf"^{re.escape(str(file))}: can't be written \(No such file.*\): make room$"),
+        refused_as(RunError, file, "make room"),
+    ):
+        file.write_text("new")
+
+
+def test_what_the_block_itself_refuses_is_left_as_it_is(tmp_path: Path) -> None:
+    with pytest.raises(RunError, match="another"), refused_as(RunError, tmp_path, "make room"):
+        raise RunError("another")

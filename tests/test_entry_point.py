@@ -28,6 +28,7 @@ from tests.arena.env_contract import check_env_contract
 from tests.arena.game_contract import BUMPS
 from tests.design_files.written import HUT, picture, sponge
 from tests.live.virtual_session import ARENA, live_on, profile_in
+from tests.sim.client.playing import FONT
 
 ID = "mc_nested/Arena-v0"
 LINE = load_scenario("line")
@@ -115,7 +116,7 @@ def test_a_live_env_keeps_a_recording_that_replays(tmp_path: Path) -> None:
     for action in (Action.BD, Action.L):
         env.step(action)
     env.close()
-    replayed = replay(kept)
+    replayed = replay(kept, FONT)
     assert (replayed.actions, replayed.followed, replayed.differences) == (2, 2, [])
     with pytest.raises(RecordingError, match="holds something already"):
         live_env(VirtualClient(), tmp_path, record=kept)

@@ -13,16 +13,13 @@ from calibration.arena.plan import box_at, box_text, copy_positions, is_good_flo
 from calibration.command_console import CommandConsole
 from mc_nested.arena.action import Cell
 from mc_nested.errors import UserError
-from mc_nested.live.model.coordinates import turn_between
+from mc_nested.live.model.coordinates import EYES, turn_between
 from mc_nested.live.model.debug_entries import NONE_NAMED, have_block_named
 from mc_nested.live.model.reading import Block, Reading, Target
 from mc_nested.live.profile.arena import Arena
 from mc_nested.live.profile.built_arena import Box, box_of, floor_of
 from mc_nested.live.profile.tables import Profile
 from mc_nested.live.vision.game_screen import GameScreen
-
-EYE_HEIGHT = 1.62
-"""Blocks from the feet to the eyes (FACTS: Standing, looking, placing)."""
 
 SIGHT = 19.5
 """Blocks from the eyes to the farthest floor that is looked at (FACTS: The F3 debug screen)."""
@@ -57,7 +54,7 @@ def cells_to_look_at(size: int) -> list[Cell]:
 
 def is_in_sight(cell: Cell, standing: Cell) -> bool:
     """Return whether a cell's floor can be seen from ``standing``: always, in an arena of 15 cells a side."""
-    return math.hypot(math.dist(cell, standing), EYE_HEIGHT) <= SIGHT
+    return math.hypot(math.dist(cell, standing), EYES) <= SIGHT
 
 
 def look_around(console: CommandConsole, arena: Arena, standing: Cell) -> LookAroundResult:
@@ -81,7 +78,7 @@ def look_around(console: CommandConsole, arena: Arena, standing: Cell) -> LookAr
 def look_at(console: CommandConsole, point: tuple[float, float, float]) -> Target | None:
     """Turn the view to a point and return the block that is seen there, or None."""
     feet = console.read().xyz or point
-    east, down, south = point[0] - feet[0], feet[1] + EYE_HEIGHT - point[1], point[2] - feet[2]
+    east, down, south = point[0] - feet[0], feet[1] + EYES - point[1], point[2] - feet[2]
     yaw, pitch = math.degrees(math.atan2(-east, south)), math.degrees(math.atan2(down, math.hypot(east, south)))
     return teleport_and_look(console, f"~ ~ ~ {yaw:.1f} {pitch:.1f}", yaw, pitch)
 

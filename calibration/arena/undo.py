@@ -15,7 +15,7 @@ from calibration.arena.plan import box_at, copy_command, fill_command
 from calibration.command_console import CommandConsole
 from calibration.context import CalibrationContext, OpenContext, StepResult
 from calibration.step_profile import check_writable
-from mc_nested.atomic_file import atomic_write
+from mc_nested.atomic_file import atomic_write, refused_as
 from mc_nested.errors import McNestedError, NotConfirmedError, ProfileError, UserError
 from mc_nested.live.devices import SWITCH_KEYS
 from mc_nested.live.menus.reset import teleport_command
@@ -41,15 +41,11 @@ def read_copy_note(profile: Path) -> Profile | None:
 def write_copy_note(known: Profile, profile: Path) -> None:
     """Write the note atomically, replacing an old one. ProfileError if the disk refuses."""
     file = note_path(profile)
-    try:
+    with refused_as(ProfileError, file, "nothing was built; make room, and try again"):
         file.parent.mkdir(parents=True, exist_ok=True)
         with atomic_write(file) as unfinished:
             unfinished.unlink(missing_ok=True)
             save_profile(known, unfinished)
-    except OSError as error:
-        raise ProfileError(
-            f"{file}: can't be written ({error}): nothing was built; make room, and try again"
-        ) from error
 
 
 def remove_copy_note(profile: Path) -> None:

@@ -14,6 +14,7 @@ from calibration.doctor.examination import Examination
 from calibration.doctor.options_rows import chat_mends, debug_scale_row, gui_scale_row
 from calibration.installation.options_txt import SAFE, OptionsTxt
 from calibration.installation.processes import may_have_open
+from mc_nested.atomic_file import refused_as
 from mc_nested.errors import ProfileError
 
 GUI_SCALE = 2
@@ -102,12 +103,10 @@ def _debug_scale(options: OptionsTxt) -> dict[str, str]:
 def _replace(named: Path, before: bytes | None, after: bytes) -> Path | None:
     """Replace a file atomically, after a backup under an unused name; returns the backup, None where no file was."""
     path = named.resolve()  # several instances may share one file by links
-    try:
+    with refused_as(ProfileError, named, "mend its permissions"):
         if (path.read_bytes() if path.exists() else None) != before:
             raise ProfileError(f"{path}: has changed meanwhile: close the game, and run this again")
         return _written(path, after)
-    except OSError as error:
-        raise ProfileError(f"{named}: can't be written ({error.strerror or error}): mend its permissions") from error
 
 
 def _written(path: Path, data: bytes) -> Path | None:

@@ -18,7 +18,7 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from calibration.context import ReportPicture, StepResult
 from calibration.doctor.check import Check, Status
-from mc_nested.atomic_file import atomic_write
+from mc_nested.atomic_file import atomic_write, refused_as
 from mc_nested.errors import PictureError, ProfileError
 from mc_nested.live.vision.font import decoded
 
@@ -29,7 +29,9 @@ class _Table(BaseModel):
     model_config = ConfigDict(extra="ignore", frozen=True, strict=True)
 
 
-class _Row(_Table):
+class CheckFinding(_Table):
+    """A row of the doctor's table as it was shown; an older doctor may have named its rows otherwise."""
+
     name: str
     status: Status
     detail: str
@@ -52,7 +54,7 @@ class _StepEntry(_Table):
 
 class _List(_Table):
     checked: str | None = None
-    checks: list[_Row] = []
+    checks: list[CheckFinding] = []
     steps: list[_StepEntry] = []
 
 
@@ -65,16 +67,6 @@ class StepFindings:
     lines: tuple[str, ...]
     samples: int
     pictures: tuple[ReportPicture, ...] = ()
-
-
-@dataclass(frozen=True)
-class CheckFinding:
-    """A row of the doctor's table as it was shown; an older doctor may have named its rows otherwise."""
-
-    name: str
-    status: Status
-    detail: str
-    fix: str = ""
 
 
 @dataclass(frozen=True)
@@ -102,7 +94,7 @@ def save_findings(
     folder, day = findings_folder(profile), today or datetime.date.today().isoformat()
     before = _read(folder)
     entries = {entry.step: entry for entry in before.steps}
-    try:
+    with refused_as(ProfileError, folder, "make room, or mend its permissions"):
         folder.mkdir(parents=True, exist_ok=True)
         for each in found:
             pictures = [
@@ -114,7 +106,7 @@ def save_findings(
             )
         after = _List(
             checked=day if checks else before.checked,
-            checks=[_Row(**dataclasses.asdict(check)) for check in checks] or before.checks,
+            checks=[CheckFinding(**dataclasses.asdict(check)) for check in checks] or before.checks,
             steps=list(entries.values()),
         )
         with atomic_write(folder / LIST) as unfinished:
@@ -123,8 +115,6 @@ def save_findings(
         for left in folder.glob("*.png"):
             if left.name not in named:
                 left.unlink()
-    except OSError as error:
-        raise ProfileError(f"{folder}: can't be written ({error}): make room, or mend its permissions") from error
 
 
 def save_findings_or_warn(
@@ -152,8 +142,7 @@ def load_findings(profile: Path) -> Findings:
         StepFindings(entry.step, entry.date, tuple(entry.lines), entry.samples, tuple(_pictures(folder, entry)))
         for entry in found.steps
     )
-    checks = tuple(CheckFinding(row.name, row.status, row.detail, row.fix) for row in found.checks)
-    return Findings(steps, checks, found.checked)
+    return Findings(steps, tuple(found.checks), found.checked)
 
 
 def _read(folder: Path) -> _List:

@@ -7,7 +7,7 @@ from pathlib import Path
 from calibration.report.findings import load_findings
 from calibration.report.page import CalibrationReport, contents, report_html
 from calibration.report.privacy import names_here
-from mc_nested.atomic_file import atomic_write
+from mc_nested.atomic_file import atomic_write, refused_as
 from mc_nested.errors import ProfileError
 from mc_nested.live.profile.store import load_profile, profile_path
 from mc_nested.toml_file import read_toml_text
@@ -36,12 +36,10 @@ def write_report(name: str, out: Path | None, say: Callable[[str], None], *, wit
     made = CalibrationReport(path.stem, profile, text, load_findings(path), version, with_pictures)
     names = names_here()
     out = (out or report_path(path)).expanduser()
-    try:
+    with refused_as(ProfileError, out, "name another --out"):
         out.parent.mkdir(parents=True, exist_ok=True)
         with atomic_write(out) as unfinished:
             unfinished.write_text(report_html(made, names), "utf-8")
-    except OSError as error:
-        raise ProfileError(f"{out}: can't be written ({error.strerror or error}): name another --out") from error
     say(f"report: {out}")
     for line in contents(made):
         say(f"  - {names.removed_from(line)}")

@@ -17,27 +17,25 @@ and to the far edge. Start cell and materials are those of the shipped designs, 
 from pathlib import Path
 from typing import Annotated
 
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import Field
 
 from mc_nested.arena.action import Cell
 from mc_nested.arena.design import scenario_of_design
 from mc_nested.arena.scenario import DEFAULT_SIZE, Scenario
 from mc_nested.arena.scenario_file import BLOCK, FREE, Name
 from mc_nested.errors import ScenarioError
-from mc_nested.toml_file import parse_toml, read_toml_text
+from mc_nested.toml_file import TomlTable, parse_toml, read_toml_text
 
 MOST_DESIGNS = 1000
 """Designs of a corpus: more would take days."""
 
 
-class _Drawing(BaseModel):
-    model_config = ConfigDict(extra="forbid", frozen=True, strict=True)
+class _Drawing(TomlTable):
     name: Name
     design: str
 
 
-class _Corpus(BaseModel):
-    model_config = ConfigDict(extra="forbid", frozen=True, strict=True)
+class _Corpus(TomlTable):
     designs: Annotated[list[_Drawing], Field(min_length=1, max_length=MOST_DESIGNS)]
 
 

@@ -104,8 +104,7 @@ def draw_picture(scenario: Scenario, agent: Cell | None, placed: Collection[Cell
 def draw_objective(picture: Picture, size: int, objective: Cell, cell_px: int) -> None:
     """Frame the cell that the agent is after, in the agent's colour, in an arena's picture."""
     here = _cell_of(picture, size, objective, cell_px)
-    within = _square(cell_px, 1.0) & ~_square(cell_px, 1.0 + max(2.0, cell_px / 8))
-    here[:] = _rounded(_painted(here.astype(np.float64), AGENT_BODY, within))
+    here[:] = _rounded(_framed(here.astype(np.float64), AGENT_BODY, max(2.0, cell_px / 8)))
 
 
 def draw_agent(picture: Picture, size: int, agent: Cell, cell_px: int, body: Colour = AGENT_BODY) -> None:
@@ -129,18 +128,19 @@ def _tile(kind: str, part: int, px: int) -> Picture:
     tile = _painted(tile, GROUND, (across > line) & (down > line))
     if kind == FREE:
         return _rounded(tile)
-    edge = max(1.5, px / 10) / px
+    edge_px = max(1.5, px / 10)
     if kind not in BLOCKS:
-        return _rounded(_framed(_painted(tile, TO_BUILD[part], _square(px, 1.0)), part, px, edge))
+        return _rounded(_framed(_painted(tile, TO_BUILD[part], _square(px, 1.0)), DESIGN[part], edge_px))
     top, lit, dark = BLOCKS[kind]
     tile = _painted(tile, dark, _square(px, 1.0))
     tile = _painted(tile, lit, _square(px, 1.0) & (across + down < 1 + line))
-    tile = _painted(tile, top, _square(px, 1.0 + 1.5 * edge * px))
-    return _rounded(_framed(tile, part, px, edge) if kind == BUILT else tile)
+    tile = _painted(tile, top, _square(px, 1.0 + 1.5 * edge_px))
+    return _rounded(_framed(tile, DESIGN[part], edge_px) if kind == BUILT else tile)
 
 
-def _framed(tile: Float64s, part: int, px: int, edge: float) -> Float64s:
-    return _painted(tile, DESIGN[part], _square(px, 1.0) & ~_square(px, 1.0 + edge * px))
+def _framed(tile: Float64s, colour: Colour, edge_px: float) -> Float64s:
+    px = len(tile)
+    return _painted(tile, colour, _square(px, 1.0) & ~_square(px, 1.0 + edge_px))
 
 
 def _with_agent(tile: Picture, colour: Colour) -> Picture:

@@ -9,7 +9,7 @@ import numpy as np
 
 from mc_nested.arena.action import Cell
 from mc_nested.arena.design import BESIDE, CORNER, DIAGONAL, EDGE, KINDS, kind_of_design, neighbours, scenario_of_design
-from mc_nested.arena.scenario import DEFAULT_SIZE, Scenario
+from mc_nested.arena.scenario import Scenario
 
 FEW_BLOCKS = 5, 20
 """The fewest blocks of a design, and the most, unless others are asked for."""
@@ -34,9 +34,7 @@ def random_scenario(seed: int, number: int, like: Scenario, blocks: tuple[int, i
             return scenario
 
 
-def draw_design(
-    kind: str, random: np.random.Generator, size: int = DEFAULT_SIZE, blocks: tuple[int, int] = FEW_BLOCKS
-) -> frozenset[Cell]:
+def draw_design(kind: str, random: np.random.Generator, size: int, blocks: tuple[int, int]) -> frozenset[Cell]:
     """Return blocks of that kind, but scattered ones may touch by chance; from the fewest to the most.
 
     No block lies on the near edge, where none can land.

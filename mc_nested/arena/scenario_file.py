@@ -6,13 +6,13 @@ The drawing's size is the arena's: N rows of N characters make an arena of N x N
 from pathlib import Path
 from typing import Annotated
 
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import Field
 
 from mc_nested.arena.action import LARGEST_SIZE, SMALLEST_SIZE, Cell
 from mc_nested.arena.builder import can_be_built, out_of_reach, within_reach
 from mc_nested.arena.scenario import Material, Part, Scenario
 from mc_nested.errors import ScenarioError
-from mc_nested.toml_file import parse_toml, read_shipped_or_named
+from mc_nested.toml_file import TomlTable, parse_toml, read_shipped_or_named
 
 BLOCK, FREE = "#", "."
 
@@ -28,10 +28,9 @@ Name = Annotated[str, Field(min_length=1, max_length=LONGEST_NAME, pattern=r"^\P
 Worth = Annotated[float, Field(ge=-LARGEST_P, le=LARGEST_P)]
 
 
-class MaterialTable(BaseModel):
+class MaterialTable(TomlTable):
     """A material in a scenario file: one that the main agent can choose."""
 
-    model_config = ConfigDict(extra="forbid", frozen=True, strict=True)
     name: Name = Field(description="what it is called: each has a name of its own")
     p: Worth = Field(description="what choosing it adds to the episode's score")
     block: Annotated[str, Field(pattern=r"^[a-z0-9_]+$")] = Field(
@@ -39,10 +38,9 @@ class MaterialTable(BaseModel):
     )
 
 
-class PartTable(BaseModel):
+class PartTable(TomlTable):
     """A part in a scenario file: they are built in the order in which they stand there."""
 
-    model_config = ConfigDict(extra="forbid", frozen=True, strict=True)
     cells: str = Field(
         description="the drawing of the part's cells, as large as the design's: each cell of the design is in one part"
     )
@@ -53,10 +51,9 @@ class PartTable(BaseModel):
     )
 
 
-class ScenarioTable(BaseModel):
+class ScenarioTable(TomlTable):
     """A scenario file."""
 
-    model_config = ConfigDict(extra="forbid", frozen=True, strict=True)
     name: Name = Field(description="what the scenario is called")
     start: Annotated[list[int], Field(min_length=2, max_length=2)] = Field(
         description="the cell where each episode begins, as x, y: counted from 0 at the near left corner"

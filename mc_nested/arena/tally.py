@@ -14,8 +14,6 @@ NEVER = np.iinfo(np.int64).max
 
 OFF_DESIGN = -1
 
-ANY_REGION = -1
-
 THE_ARENA = np.ones(1, dtype=np.bool_)
 """The mask of the one arena of a tally of one."""
 
@@ -40,7 +38,7 @@ class Tally:
         self._worth = np.zeros((runs, parts, differ))
         self._counts_for = np.zeros((runs, parts, materials), dtype=np.int64)
         self._part_of = np.full((runs, side, side), OFF_DESIGN)
-        self._region_of = np.full((runs, side, side), ANY_REGION)
+        self._region_of = np.zeros((runs, side, side), dtype=np.int64)
         self._part_after = np.zeros((runs, blocks + 1), dtype=np.int64)
         self._laid_after = np.zeros((runs, parts), dtype=np.int64)
         for run, scenario in enumerate(scenarios):

@@ -66,10 +66,8 @@ class ArenaVectorEnv(VectorEnv[Int64s, Int64s, Any]):
         self.num_envs = len(self.envs)
         self.render_mode = self.envs[0].render_mode
         self.scenario = self.envs[0].scenario
-        self.single_observation_space, self.single_action_space = (
-            self.envs[0].observation_space,
-            self.envs[0].action_space,
-        )
+        self.single_observation_space = self.envs[0].observation_space
+        self.single_action_space = self.envs[0].action_space
         self.observation_space = batch_space(self.single_observation_space, self.num_envs)
         self.action_space = batch_space(self.single_action_space, self.num_envs)
         self._observations = blank_observations(self.single_observation_space, self.num_envs)

@@ -6,7 +6,6 @@ The scripted builder builds it, or the agent with objectives, whose weights come
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from functools import partial
-from itertools import groupby
 from pathlib import Path
 from typing import Annotated
 
@@ -16,8 +15,7 @@ from calibration.arena.undo import undo_command
 from mc_nested.arena.action import Cell
 from mc_nested.arena.builder import build_with_materials, within_reach
 from mc_nested.arena.design import is_buildable
-from mc_nested.arena.env import ArenaEnv, step_in
-from mc_nested.arena.game import Game
+from mc_nested.arena.env import ArenaEnv
 from mc_nested.arena.scenario import Scenario
 from mc_nested.cli.options import (
     DEFAULT_PROFILE,
@@ -34,7 +32,7 @@ from mc_nested.cli.output import JsonOption, Output, QuietOption, prints
 from mc_nested.cli.view import Viewed, ViewOption, viewed
 from mc_nested.cli.watching import VideoOption, filmed, started_over, times_of, watched
 from mc_nested.errors import ScenarioError, UserError
-from mc_nested.learn.objectives.building import Step, steps_of
+from mc_nested.learn.evaluation import BuildStep, GreedyEpisode, steps_of, take_steps
 from mc_nested.learn.objectives.weights import agent_of, shipped_weights
 from mc_nested.live.profile.store import load_profile, profile_path
 from mc_nested.report.film import check_film
@@ -56,18 +54,7 @@ class Built:
     unreachable: Annotated[tuple[Cell, ...], "cells of the design where no block can land, x and y each"]
 
 
-@dataclass(frozen=True)
-class _Episode:
-    """An episode that was played: blocks that stand on the design, and that weren't laid, and each step's material."""
-
-    built: int
-    left: int
-    score: float
-    materials: list[int]
-    is_cut_off: bool
-
-
-Steps = Callable[[ArenaEnv], Iterator[Step]]
+Steps = Callable[[ArenaEnv], Iterator[BuildStep]]
 """Chooses the steps of an episode that has begun."""
 
 
@@ -121,10 +108,10 @@ def build(  # noqa: PLR0913 - a Typer verb: a parameter for each option
     with viewed(view, "build", f"{scenario.name}, {where_words(backend)}") as viewing:
         opened = open_game(backend, scenario, replace(opening, journal=viewing.publisher.board))
         with opened as (played, display), filmed(played, display, scenario, video) as game:
-            episode = started_over(partial(_built, game, scenario, in_hand, steps, viewing, quiet=quiet or as_json))
+            env = ArenaEnv(game, scenario)
+            episode = started_over(partial(_built, env, in_hand, steps, viewing, quiet=quiet or as_json))
             times = times_of(game)
-    built, count = episode.built, len(episode.materials)
-    name = ", then ".join(scenario.materials[index].name for index, _ in groupby(episode.materials))
+    built, count, name = len(env.placed & scenario.design), len(episode.actions), episode.material_name(scenario)
     found = Built(
         scenario=scenario.name,
         blocks=drawn.blocks,
@@ -144,29 +131,13 @@ def build(  # noqa: PLR0913 - a Typer verb: a parameter for each option
     )
     if afterwards:
         output.hint(f"  it stands until the arena is cleared for the next episode; {afterwards}")
-    _check_whole(episode, scenario)
+    _check_whole(built, scenario.blocks - len(env.placed), count, scenario)
 
 
-def _built(
-    game: Game, scenario: Scenario, material: int | None, steps: Steps, viewing: Viewed, *, quiet: bool
-) -> _Episode:
+def _built(env: ArenaEnv, material: int | None, steps: Steps, viewing: Viewed, *, quiet: bool) -> GreedyEpisode:
     """Build the design from a reset on."""
-    env = ArenaEnv(game, scenario)
-    materials: list[int] = []
-    is_cut_off = False
-    with watched(env, scenario.name, viewing, quiet=quiet) as show:
-        first = scenario.best_material if material is None else material
-        env.reset(options={"material": scenario.materials[first].name})
-        for taken, following, objective in steps(env):
-            show(objective)
-            env.announce(following and step_in(scenario, *following))
-            _, _, is_built, is_cut_off, _ = env.step(step_in(scenario, *taken))
-            materials.append(taken[1])
-            if is_built or is_cut_off:
-                break
-        show(None)
-    built = len(env.placed & scenario.design)
-    return _Episode(built, scenario.blocks - len(env.placed), env.score, materials, is_cut_off)
+    with watched(env, env.scenario.name, viewing, quiet=quiet) as show:
+        return take_steps(env, steps(env), material, show)
 
 
 def _by_the_builder(scenario: Scenario, material: int | None) -> Steps:
@@ -177,7 +148,7 @@ def _by_the_builder(scenario: Scenario, material: int | None) -> Steps:
             f"scenario {scenario.name}: the scripted builder takes {len(chosen)} steps, and its step_limit is "
             f"{scenario.step_limit}: raise it"
         )
-    steps = [Step(taken, following) for taken, following in zip(chosen, [*chosen[1:], None], strict=True)]
+    steps = [BuildStep(taken, following) for taken, following in zip(chosen, [*chosen[1:], None], strict=True)]
     return lambda _: iter(steps)
 
 
@@ -187,17 +158,17 @@ def _by_the_agent(scenario: Scenario, material: int | None) -> Steps:
     return lambda env: steps_of(agent, env, material)
 
 
-def _check_whole(episode: _Episode, scenario: Scenario) -> None:
-    """Raise UserError, one line, if a block in reach is missing."""
-    if episode.built == scenario.blocks:
+def _check_whole(built: int, left: int, steps: int, scenario: Scenario) -> None:
+    """Raise UserError, one line, if a block in reach is missing; ``left`` weren't laid."""
+    if built == scenario.blocks:
         return
-    if episode.is_cut_off:
+    if left and steps == scenario.step_limit:
         why = f"its step_limit of {scenario.step_limit} was reached: raise it, or build"
-    elif episode.left:
+    elif left:
         why = "it gave up the others: build"
     else:
         why = "it laid the others off the design: build"
-    raise UserError(f"the agent built {episode.built} of {scenario.blocks} blocks in reach, {why} without --agent")
+    raise UserError(f"the agent built {built} of {scenario.blocks} blocks in reach, {why} without --agent")
 
 
 def _how_to_put_back(profile_name: str, *, yes: bool) -> str:

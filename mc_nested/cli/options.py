@@ -56,6 +56,9 @@ RecordOption = Annotated[
     ),
 ]
 
+MOST_TRIALS = 1000
+"""More would only run out of memory."""
+
 PresetOption = Annotated[
     str,
     typer.Option(metavar=NAME_OR_FILE, help="hyper-parameters", autocompletion=complete_of(shipped_presets)),

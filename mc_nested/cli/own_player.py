@@ -72,6 +72,5 @@ def own_player(folder: RunFolder, opening: Opening, publisher: Publisher) -> Ite
         shown = env if isinstance(env, TeamVectorEnv) else as_shown(env, config.preset.states)
         view = agent.view_of(shown, folder.scenarios)
         asked = folder.scenarios, agent, config.preset, config.seed, config.stop_at_optimum
-        learns = config.preset.objectives and not config.design_unknown
-        trainer = ObjectivesTraining(*asked) if learns else Trainer(view, *asked)
+        trainer = ObjectivesTraining(*asked) if config.trains_objectives else Trainer(view, *asked)
         yield OwnPlayer(trainer, env, log, lambda: publisher.was_paused_lately)

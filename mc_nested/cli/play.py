@@ -26,7 +26,7 @@ from mc_nested.cli.watching import VideoOption, filmed, started_over, times_of, 
 from mc_nested.errors import RunError, UserError
 from mc_nested.learn.agents import Agent
 from mc_nested.learn.dqn.engines import SCREEN
-from mc_nested.learn.evaluation import GreedyEpisode, play_greedily
+from mc_nested.learn.evaluation import GreedyEpisode, build_greedily, play_greedily
 from mc_nested.learn.runs.run_folder import RunFolder
 from mc_nested.live.devices import Display
 from mc_nested.live.menus.click_points import picture_bytes
@@ -127,12 +127,14 @@ def _watch(
     env = ArenaEnv(game, scenario)
     if pictures:
         pictures.begin()
+    take_picture = pictures.take if pictures else lambda: None
     with watched(env, f"{scenario.name}, trial {which}", viewing, quiet=is_quiet) as show:
+        if folder.config.trains_objectives:
+            return build_greedily(env, agent, show, take_picture)
 
         def after_step() -> None:
             show(None)
-            if pictures:
-                pictures.take()
+            take_picture()
 
         arenas = agent.view_of(as_shown(ArenaVectorEnv([env]), folder.config.preset.states), [scenario])
         return play_greedily(arenas, [scenario], agent, after_step)[0]

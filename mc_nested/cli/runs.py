@@ -10,16 +10,17 @@ from rich.filesize import decimal
 from rich.table import Table
 from rich.text import Text
 
+from mc_nested.arena.env import ArenaEnv
 from mc_nested.cli.completion import RUNS, complete_runs
 from mc_nested.cli.options import RunArgument, check_nothing_before
 from mc_nested.cli.output import FittingTable, JsonOption, Output, facts_table, prints
 from mc_nested.errors import RunError
 from mc_nested.learn.agents import Agent
-from mc_nested.learn.evaluation import GreedyEpisode, play_greedily
+from mc_nested.learn.evaluation import GreedyEpisode, build_greedily, play_greedily
 from mc_nested.learn.runs.folder_lock import delete_folder, rename_folder
 from mc_nested.learn.runs.run_folder import RunFolder
 from mc_nested.studies.run_facts import RunFacts, facts_of, runs_in
-from sim.grid import GridVectorEnv
+from sim.grid import GridGame, GridVectorEnv
 from sim.team_grid import team_arenas
 from sim.worlds import check_window
 
@@ -123,6 +124,8 @@ def greedy_episodes(folder: RunFolder, agent: Agent) -> list[GreedyEpisode]:
     """
     check_window(folder.config.preset.states, has_window=False)
     trials = folder.config.trials
+    if folder.config.trains_objectives:
+        return [build_greedily(ArenaEnv(GridGame(folder.scenario), folder.scenario), agent)]
     arenas = team_arenas(folder.team, trials) if folder.team else GridVectorEnv(folder.scenarios)
     env = agent.view_of(arenas, folder.scenarios)
     return play_greedily(env, folder.scenarios, agent)

@@ -22,6 +22,7 @@ from mc_nested.arena.scenario_file import paper_scenarios
 from mc_nested.cli.cluster_options import ClusterOption, InsecureOption, KeysOption, cluster_of
 from mc_nested.cli.completion import complete_of, complete_runs
 from mc_nested.cli.options import (
+    MOST_TRIALS,
     DeviceOption,
     EngineOption,
     LayerOption,
@@ -45,9 +46,6 @@ from mc_nested.studies.study import SHIPPED, Study, StudyOptions, write_report
 from mc_nested.studies.table import Table
 from mc_nested.workers.cluster.address import SchedulerAddress
 from sim.worlds import check_window
-
-MOST_TRIALS = 1000
-"""More would only run out of memory."""
 
 OPTIONS: Mapping[str, Any] = {
     "trials": Annotated[int, typer.Option(min=1, max=MOST_TRIALS, help="trials of each variant on each design")],

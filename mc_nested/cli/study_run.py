@@ -7,7 +7,6 @@ import os
 import time
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import ExitStack, contextmanager
-from types import TracebackType
 
 from rich.console import Console, Group
 from rich.live import Live
@@ -18,6 +17,7 @@ from rich.text import Text
 from mc_nested.cli.cluster_options import workers_of
 from mc_nested.cli.interrupt import Stopped, catch_interrupts
 from mc_nested.cli.output import Output, print_line
+from mc_nested.cli.progress import LINE_EVERY_S
 from mc_nested.errors import RunError
 from mc_nested.studies.folder import StudyFolder
 from mc_nested.studies.job import Job
@@ -30,9 +30,6 @@ from mc_nested.workers.processes import JobProcesses
 
 REFRESH_S = 0.25
 """No more often than an eye can follow."""
-
-LINE_EVERY_S = 30.0
-"""Seconds between two lines of text, if there is no terminal to show a bar."""
 
 MOST_ROWS = 10
 """Groups shown at once."""
@@ -167,9 +164,7 @@ class StudyProgress:
             self._next += LINE_EVERY_S
         return self
 
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, traceback: TracebackType | None
-    ) -> None:
+    def __exit__(self, *_: object) -> None:
         if self._console.is_terminal:
             self._live.stop()
 

@@ -16,6 +16,7 @@ from mc_nested.cli.games_at_play import games_of
 from mc_nested.cli.options import (
     DEFAULT_PROFILE,
     FILES,
+    MOST_TRIALS,
     NAME_OR_FILE,
     PRESETS,
     DeviceOption,
@@ -48,9 +49,6 @@ from mc_nested.learn.runs.run_config import RunConfig, TeamTable
 from mc_nested.learn.runs.run_folder import RunFolder
 from mc_nested.learn.unknown_design import ANY_DESIGN, playing
 from sim.worlds import Backend, check_window
-
-MOST_TRIALS = 1000
-"""More at once would only run out of memory."""
 
 BESIDE_RESUME = (
     "--resume",

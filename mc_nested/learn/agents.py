@@ -15,7 +15,6 @@ from typing import Annotated, Any
 import numpy as np
 from gymnasium.vector import VectorEnv
 from numpy.typing import NDArray
-from pydantic import AfterValidator
 
 from mc_nested.arena.action import Action
 from mc_nested.arena.env import BLOCKS_LEFT, highest_observation
@@ -26,13 +25,14 @@ from mc_nested.arrays import Arrays, Float64s, Int64s, named_for, part_of
 from mc_nested.errors import PresetError
 from mc_nested.learn.builders import Builders, check_builders
 from mc_nested.learn.dqn.engine import NetworkForm
-from mc_nested.learn.dqn.engines import NUMBERS, OBJECTIVES, SCREEN
+from mc_nested.learn.dqn.engines import NUMBERS, SCREEN
 from mc_nested.learn.dqn.replay import ReplayMark
-from mc_nested.learn.dqn.states import OBJECTIVE_PLANES, PackedPlanes, PlaneStates, States, StateSpace
+from mc_nested.learn.dqn.states import ORDER_PLANES, REACH_PLANES, PlaneStates, Sees, States, StateSpace
 from mc_nested.learn.learner import CHOICE_NUMBERS, Learner, summed_by_run
 from mc_nested.learn.objectives.arenas import side_for
 from mc_nested.learn.preset import Preset
 from mc_nested.learn.streams import initial_stream
+from mc_nested.toml_file import one_of
 
 IMAGE = "image"
 """The states that are the arena from above."""
@@ -83,13 +83,7 @@ def check_parts(scenarios: Sequence[Scenario], preset: Preset) -> None:
         raise PresetError(f"[imagination] knows no parts, and {in_parts.name} has some: take the preset tuned or paper")
 
 
-def _known(name: str) -> str:
-    if name not in AGENT_SPECS:
-        raise ValueError(f"must be one of {', '.join(AGENT_SPECS)}")
-    return name
-
-
-AgentName = Annotated[str, AfterValidator(_known)]
+AgentName = Annotated[str, one_of(AGENT_SPECS)]
 """The name of one of AGENT_SPECS, in a file that pydantic checks."""
 
 
@@ -98,7 +92,8 @@ class Agent:
 
     ``main`` is the main or top agent, None for the single agent. ``low_level`` is the nested agent, the low-level
     agents of the hierarchy (a row for each run and material), or the single agent; builders that don't share a network
-    have a row each. ``size`` is the largest arena's, ``builders`` how many share an arena.
+    have a row each. ``size`` is the largest arena's, ``builders`` how many share an arena. ``nested_sees`` is what the
+    nested agent is shown, where the main agent's actions are objectives.
 
     Args:
         spec: which agent.
@@ -131,6 +126,7 @@ class Agent:
         self.size = max(scenario.size for scenario in scenarios)
         self.spec = spec
         self._sees = preset.states
+        self.nested_sees: Sees = preset.objectives.nested_sees if preset.objectives else "everything"
         self._team = team
         self.builders = team.count if team else 1
         self._low_levels = self._materials if spec.low_level_per_material else 1
@@ -148,11 +144,6 @@ class Agent:
         each = [stream for stream in streams for _ in range(self._rows_a_run)]
         imitation = (preset.imitation, self._longest) if preset.imitation else None
         self.low_level = Learner(builds, preset, each, imitation)
-
-    @property
-    def has_objectives(self) -> bool:
-        """Whether its main agent's actions are objectives: the next cell to build."""
-        return self._sees == OBJECTIVES
 
     @property
     def _rows_a_run(self) -> int:
@@ -274,7 +265,7 @@ class Agent:
         """
         figures = {}
         for role, learner in self._learners().items():
-            for name, values in (("loss", learner.engine.last_loss()), ("q", learner.engine.last_q())):
+            for name, values in (("loss", learner.engine.last.loss()), ("q", learner.engine.last.q())):
                 of_run = values.reshape(len(self.runs), -1)
                 known = np.isfinite(of_run)
                 total = np.where(known, of_run, 0.0).sum(axis=1)
@@ -358,8 +349,9 @@ class Agent:
 
     def _objectives(self, runs: int, side: int) -> tuple[States, States]:
         """Return the main agent's states, whose actions are cells, and the nested agent's: bits of frames."""
-        planes = (OBJECTIVE_PLANES, side, side)
-        return PackedPlanes(runs, side * side, planes), PackedPlanes(runs, self._low_level_actions, planes)
+        order, reach = ((planes, side, side) for planes in (ORDER_PLANES, REACH_PLANES))
+        builds = PlaneStates(runs, self._low_level_actions, reach, are_bits=True)
+        return PlaneStates(runs, side * side, order, are_bits=True), builds
 
     @property
     def _low_level_actions(self) -> int:

@@ -1,23 +1,21 @@
 """Greedy play: the argmax of the networks, without exploration and without learning."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from itertools import groupby
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from gymnasium.vector import VectorEnv
 
-from mc_nested.arena.action import Cell
-from mc_nested.arena.env import BLOCKS_LEFT, X, Y
-from mc_nested.arena.rules import front_of
+from mc_nested.arena.action import Action, Cell
+from mc_nested.arena.env import ArenaEnv, step_in
 from mc_nested.arena.scenario import Scenario
-from mc_nested.arena.vector import NO_ACTION, Foreseeing, foresees
-from mc_nested.arrays import Bools, Int64s
+from mc_nested.arrays import Int64s
 from mc_nested.learn.agents import Agent
 from mc_nested.learn.foresight import announce
 from mc_nested.learn.learner import CHOICE_NUMBERS
-from mc_nested.learn.objectives.decide import ObjectiveAgent, Plan
+from mc_nested.learn.objectives.decide import Decision, ObjectiveAgent, Plan
 
 
 @dataclass
@@ -49,8 +47,6 @@ def play_greedily(
     after_step: Callable[[], None] = lambda: None,
 ) -> list[GreedyEpisode]:
     """Play one greedy episode of every run, from a reset on; ``after_step`` is called after each step of all runs."""
-    if agent.has_objectives:
-        return _build_greedily(env, scenarios, agent, after_step)
     runs, builders = len(scenarios), agent.builders
     first = slice(None, None, builders)
     has_parts = any(scenario.parts for scenario in scenarios)
@@ -82,48 +78,69 @@ def play_greedily(
     return episodes
 
 
-def _build_greedily(
-    env: VectorEnv[Int64s, Int64s, Any], scenarios: Sequence[Scenario], agent: Agent, after_step: Callable[[], None]
-) -> list[GreedyEpisode]:
-    """Do ``play_greedily`` with objectives: the main agent is told each scenario's design."""
-    main, nested = agent.online()["main"], agent.online()["low"]
-    agents = [ObjectiveAgent(*own) for own in zip(main, nested, scenarios, strict=True)]
-    has_parts = any(scenario.parts for scenario in scenarios)
-    observations, _ = env.reset(options={"material": np.array([scenario.best_material for scenario in scenarios])})
-    episodes = [GreedyEpisode() for _ in scenarios]
-    plans, blocks = [Plan() for _ in scenarios], [frozenset[Cell]() for _ in scenarios]
-    running = np.ones(len(scenarios), dtype=np.bool_)
+class BuildStep(NamedTuple):
+    """An action with its material in hand, what comes next if all goes as the rules say, and the cell it is for."""
 
-    def decided(
-        seen: Int64s, stands: list[frozenset[Cell]], about: list[Plan], asked: Bools
-    ) -> tuple[Int64s, list[Plan]]:
-        takes, then = np.full((len(agents), 2), NO_ACTION), list(about)
-        for run in asked.nonzero()[0].tolist():
-            takes[run], then[run] = agents[run].decide(about[run], (int(seen[run, X]), int(seen[run, Y])), stands[run])
-        return takes if has_parts else takes[:, 0], then
+    taken: tuple[Action, int]
+    following: tuple[Action, int] | None
+    objective: Cell | None = None
 
-    def stand(before: Int64s, after: Int64s) -> list[frozenset[Cell]]:
-        landed = before[:, BLOCKS_LEFT] > after[:, BLOCKS_LEFT]
-        fronts = [front_of((int(x), int(y))) for x, y in after[:, [X, Y]]]
-        return [own | {front} if is_new else own for own, front, is_new in zip(blocks, fronts, landed, strict=True)]
 
-    takes, plans = decided(observations, blocks, plans, running)
-    while running.any():
-        if foresees(env):
-            arenas: Foreseeing = env  # type: ignore[assignment]  # it says so itself
-            expected, goes_on, _ = arenas.expected(takes)
-            following, _ = decided(expected, stand(observations, expected), plans, running & goes_on)
-            arenas.announce(following)
-        before = observations
-        observations, _, terminated, truncated, info = env.step(takes)
-        blocks = stand(before, observations)
-        for run in running.nonzero()[0].tolist():
-            action, material = np.atleast_1d(takes[run]).tolist()[0], scenarios[run].best_material
-            episodes[run].actions.append(action)
-            episodes[run].materials.append(int(takes[run][1]) if has_parts else material)
-            if info["_score"][run]:
-                episodes[run].score = float(info["score"][run])
-        running = ~(terminated | truncated)
+def steps_of(agent: ObjectiveAgent, env: ArenaEnv, material: int | None = None) -> Iterator[BuildStep]:
+    """Yield the agent's greedy steps in a running episode, each chosen once the one before is done.
+
+    They end where the agent is stuck; whoever takes them ends where the episode does. ``material``: build all of it, in
+    place of what is worth most.
+    """
+
+    def of_material(decision: Decision) -> Decision:
+        return decision if material is None else decision._replace(material=material)
+
+    plan = Plan()
+    while not agent.is_stuck(plan, env.placed):
+        decision, plan = agent.decide(plan, env.cell, env.placed)
+        taken = of_material(decision)
+        cell, placed = agent.expected(env.cell, env.placed, taken.action)
+        _, goes_on, _ = env.expected(step_in(env.scenario, *taken))
+        is_last = not goes_on or agent.is_stuck(plan, placed)
+        yield BuildStep(taken, None if is_last else of_material(agent.decide(plan, cell, placed)[0]), plan.objective)
+
+
+def build_greedily(
+    env: ArenaEnv,
+    agent: Agent,
+    show: Callable[[Cell | None], None] = lambda _: None,
+    after_step: Callable[[], None] = lambda: None,
+) -> GreedyEpisode:
+    """Play one greedy episode of an agent with objectives, which is told the design; callbacks as ``take_steps``'s."""
+    online = agent.online()
+    told = ObjectiveAgent(online["main"][0], online["low"][0], env.scenario, agent.nested_sees)
+    return take_steps(env, steps_of(told, env), show=show, after_step=after_step)
+
+
+def take_steps(
+    env: ArenaEnv,
+    steps: Iterable[BuildStep],
+    material: int | None = None,
+    show: Callable[[Cell | None], None] = lambda _: None,
+    after_step: Callable[[], None] = lambda: None,
+) -> GreedyEpisode:
+    """Take the steps of an episode, from a reset on, until it or they end; each is announced with the one before.
+
+    ``material`` is in hand first, the best one unless named. ``show`` is told the cell that each step is for before it,
+    and None after the last; ``after_step`` is called after each.
+    """
+    scenario, episode = env.scenario, GreedyEpisode()
+    env.reset(options=None if material is None else {"material": scenario.materials[material].name})
+    for (action, in_hand), following, objective in steps:
+        show(objective)
+        env.announce(following and step_in(scenario, *following))
+        _, _, terminated, truncated, _ = env.step(step_in(scenario, action, in_hand))
+        episode.actions.append(int(action))
+        episode.materials.append(in_hand)
         after_step()
-        takes, plans = decided(observations, blocks, plans, running)
-    return episodes
+        if terminated or truncated:
+            break
+    show(None)
+    episode.score = env.score
+    return episode

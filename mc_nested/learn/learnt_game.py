@@ -17,7 +17,7 @@ from mc_nested.learn.agents import Agent
 from mc_nested.learn.exploration.return_then_explore import Excursions
 from mc_nested.learn.imagination.background_practice import Background, BackgroundPractice
 from mc_nested.learn.imagination.first_tries import FirstTries
-from mc_nested.learn.imagination.imagination import Imagination, Surroundings
+from mc_nested.learn.imagination.imagination import GivenFacts, Imagination
 from mc_nested.learn.imagination.noticing import IN_WORDS
 from mc_nested.learn.practice import Practice, Step
 from mc_nested.learn.preset import ExcursionRule, Preset
@@ -46,9 +46,10 @@ class LearntGame(Practice):
     def __init__(self, agent: Agent, preset: Preset, imagination: Imagination, scenarios: Sequence[Scenario]) -> None:
         super().__init__(agent, preset)
         self.imagination: Imagination = imagination
+        self.known = imagination
         self._excursions = Excursions(agent, preset, INSTEAD, scenarios)
         # What doesn't hold of each run's learnt game; negative while that has its turn all the same.
-        self._broken, self._news = np.zeros(len(scenarios), dtype=np.int64), list[str]()
+        self._broken = np.zeros(len(scenarios), dtype=np.int64)
 
     def before_choice(self, runs: Int64s, elsewhere: Collection[int] = ()) -> None:
         for run in runs.tolist():
@@ -88,7 +89,7 @@ class LearntGame(Practice):
             self._broken[run] = broken = self.imagination.broken_assumption(run)
             if broken:
                 what = f"the learnt game doesn't hold: {IN_WORDS[broken]}; every other episode is an excursion now"
-                self._news.append(f"trial {run}: {what}" if len(self._broken) > 1 else what)
+                self.untold.append(f"trial {run}: {what}" if len(self._broken) > 1 else what)
 
     def epsilon_in_a_game(self, run: int, epsilon: float, games: int) -> float:
         if self._broken[run] > 0:
@@ -96,10 +97,6 @@ class LearntGame(Practice):
         # Another game already plays what an untaught network says, which may stand still. By chance other cells are
         # tried in each game, and an episode ends sooner.
         return 1.0 if games and not self.imagination.has_experience(run) else epsilon
-
-    def news(self) -> list[str]:
-        told, self._news = self._news, []
-        return told
 
     def probes(self, run: int, material: int) -> frozenset[Cell]:
         return frozenset() if self._broken[run] > 0 else self.imagination.probes(run, material)
@@ -160,10 +157,10 @@ def imagination_of(agent: Agent, scenarios: Sequence[Scenario], preset: Preset, 
     """
     if preset.imagination is None or agent.main is None:
         return None
-    known = surroundings_of(scenarios)
+    known = given_facts_of(scenarios)
     return Imagination(agent.main, agent.low_level, known, preset, preset.imagination, seed, agent.runs)
 
 
-def surroundings_of(scenarios: Sequence[Scenario]) -> list[Surroundings]:
+def given_facts_of(scenarios: Sequence[Scenario]) -> list[GivenFacts]:
     """Return what is known of each scenario from the beginning: nothing of its design but how many blocks it has."""
-    return [Surroundings(each.start_state, each.size, each.step_limit, len(each.materials)) for each in scenarios]
+    return [GivenFacts(each.start_state, each.size, each.step_limit, len(each.materials)) for each in scenarios]

@@ -6,7 +6,7 @@ block landed instead was the objective, too.
 
 The main agent builds designs drawn at random, through the nested agent, which has learnt. It acts again when that is
 done. Its r_M: for each objective a share of a block that is on the design, less what the steps cost, less 1 for a wrong
-block, for an objective that wasn't reached, and for each cell that can't be built any more.
+block or for an objective that wasn't reached, and less 1 where cells are lost.
 """
 
 from collections import deque
@@ -19,21 +19,32 @@ from numpy.typing import NDArray
 from mc_nested.arena.action import SMALLEST_SIZE, Action
 from mc_nested.arrays import Arrays, Bools, Float64s, Int64s
 from mc_nested.learn.dqn.replay import Transitions
+from mc_nested.learn.dqn.states import WANTED
 from mc_nested.learn.learner import Learner
-from mc_nested.learn.objectives.arenas import NOWHERE, outside, plane_of_each, planes_of, side_for, step, take_out_lost
+from mc_nested.learn.objectives.arenas import (
+    NOWHERE,
+    framed_cells,
+    order_planes,
+    outside,
+    plane_of_each,
+    reach_planes,
+    reached_from,
+    side_for,
+    step,
+)
 from mc_nested.learn.objectives.decide import PATIENCE
 from mc_nested.learn.objectives.drawn import drawn_design, drawn_obstacles, drawn_size
 from mc_nested.learn.objectives.networks import OrderNetwork, ReachNetwork
-from mc_nested.learn.preset import Exploration, ObjectivesRule
+from mc_nested.learn.preset import Exploration, ObjectivesRule, Update
 
 NEAR_CELLS = 2
 """An objective so near is drawn more often, and one beside which something stands."""
 
-BLOCK, MISTAKE = 0.1, 1.0
+BLOCK, MISTAKE = 0.2, 1.0
 """What a block on the design is worth to the main agent, and what a mistake costs."""
 
-MOST_LOST = 3
-"""Cells lost at once that count: more would be one error that outweighs all others."""
+LOWEST = -2 * MISTAKE
+"""The least reward of an objective: a long way round would be one error that outweighs all others."""
 
 LATELY, GREEDY_SHARE = 1000, 8
 """Episodes that a line looks back to, and the share of the arenas, one in so many, that it looks at."""
@@ -61,12 +72,14 @@ class _Lessons:
 
     Args:
         learner: what learns.
-        rule: how.
+        rule: in what.
+        update: how.
         arenas: how many.
     """
 
-    def __init__(self, learner: Learner, rule: ObjectivesRule, arenas: int) -> None:
+    def __init__(self, learner: Learner, rule: ObjectivesRule, update: Update, arenas: int) -> None:
         self._learner, self._rule = learner, rule
+        self._gamma, self._rate = update.gamma, update.learning_rate
         self._arenas, self._largest = arenas, rule.largest
         self.side = side_for(rule.largest)
         self._occupied = np.ones((arenas, self.side, self.side), np.bool_)
@@ -95,9 +108,9 @@ class _Lessons:
         both = self._learner.states.encoded(np.stack((before, after)))
         self._learner.replay.add_several(0, Transitions(both, actions, rewards, discounts))
 
-    def _update(self, random: np.random.Generator, share: float, rate: float) -> None:
+    def _update(self, random: np.random.Generator, share: float) -> None:
         engine = self._learner.engine
-        engine.rule = engine.rule._replace(learning_rate=rate * rate_after(share))
+        engine.rule = engine.rule._replace(learning_rate=self._rate * rate_after(share))
         for _ in range(self._rule.updates_a_round):
             self._learner.learn(THE_ROW, random.random((1, engine.rule.batch)))
 
@@ -105,8 +118,8 @@ class _Lessons:
 class NestedLessons(_Lessons):
     """The nested agent's lessons. ε differs from arena to arena: from the exploration's ``floor`` to its ``start``."""
 
-    def __init__(self, learner: Learner, rule: ObjectivesRule, exploration: Exploration) -> None:
-        super().__init__(learner, rule, rule.nested_arenas)
+    def __init__(self, learner: Learner, rule: ObjectivesRule, update: Update, exploration: Exploration) -> None:
+        super().__init__(learner, rule, update, rule.nested_arenas)
         self._longest = PATIENCE * self.side
         ladder = np.linspace(0, 1, rule.nested_arenas) ** 2
         self._epsilon = exploration.floor + (exploration.start - exploration.floor) * ladder
@@ -121,12 +134,12 @@ class NestedLessons(_Lessons):
 
     _STATE = (*_Lessons._STATE, "path", "actions")
 
-    def round(self, random: np.random.Generator, gamma: float, rate: float) -> None:
+    def round(self, random: np.random.Generator) -> None:
         """Do a step in every arena, and updates."""
         for arena in self._is_fresh.nonzero()[0].tolist():
             self._begin(arena, random)
         every = np.arange(self._arenas)
-        before = planes_of(self._wanted, self._occupied, self._agents)
+        before = reach_planes(self._wanted, self._occupied, self._agents, self._rule.nested_sees)
         network = ReachNetwork(self._learner.engine.online[0])
         actions = network.values(network.reaching(before), self._agents).argmax(1)
         explores = random.random(self._arenas) < (self._epsilon if self.updates else 1.0)
@@ -137,28 +150,28 @@ class NestedLessons(_Lessons):
         self._steps += 1
         has_landed = landed[:, 0] != NOWHERE
         hits = has_landed & self._wanted[every, landed[:, 0], landed[:, 1]]
-        after = planes_of(self._wanted, stood, self._agents)
-        self._store(before, actions, hits.astype(np.float64), after, np.where(has_landed, 0.0, gamma))
+        after = reach_planes(self._wanted, stood, self._agents, self._rule.nested_sees)
+        self._store(before, actions, hits.astype(np.float64), after, np.where(has_landed, 0.0, self._gamma))
         if self._rule.hindsight:
             for arena in (has_landed & ~hits).nonzero()[0].tolist():
-                self._relabel(arena, stood[arena], landed[arena], gamma)
+                self._relabel(arena, stood[arena], landed[arena])
         self._is_fresh = has_landed | (self._steps >= self._longest)
         greedy = self._is_fresh[: self._arenas // GREEDY_SHARE]
         self._reached.extend(hits[: len(greedy)][greedy].tolist())
-        self._update(random, self.updates / self._rule.nested_updates, rate)
+        self._update(random, self.updates / self._rule.nested_updates)
 
     def _begin(self, arena: int, random: np.random.Generator) -> None:
-        size = drawn_size(random, SMALLEST_SIZE, self._largest)
-        occupied = outside(size, self.side)
-        occupied[1 : size + 1, 1 : size + 1] |= drawn_obstacles(random, size)
-        free = np.argwhere(~occupied)
-        goals = free[free[:, 1] > 1]
-        if not len(goals):
+        goals = np.empty((0, 2), np.int64)
+        while not len(goals):
+            size = drawn_size(random, SMALLEST_SIZE, self._largest)
             occupied = outside(size, self.side)
+            occupied[1 : size + 1, 1 : size + 1] |= drawn_obstacles(random, size, self._rule.most_blocks)
             free = np.argwhere(~occupied)
-            goals = free[free[:, 1] > 1]
-        self._occupied[arena] = occupied
-        self._agents[arena] = agent = free[random.integers(len(free))]
+            if len(free):
+                agent = free[random.integers(len(free))]
+                reached = reached_from(occupied, agent[0], agent[1], np.empty((self.side**2, 2), np.int64))
+                goals = free[reached[free[:, 0], free[:, 1] - 1]]
+        self._occupied[arena], self._agents[arena] = occupied, agent
         chance, (x, y) = random.random(), goals.T
         some = (
             np.abs(goals - agent).sum(1) <= NEAR_CELLS,
@@ -169,14 +182,14 @@ class NestedLessons(_Lessons):
         self._wanted[arena] = plane_of_each(chosen[random.integers(len(chosen))][None], self.side)[0]
         self._steps[arena] = 0
 
-    def _relabel(self, arena: int, stood: Bools, landed: Int64s, gamma: float) -> None:
+    def _relabel(self, arena: int, stood: Bools, landed: Int64s) -> None:
         """Store the episode once more, as if its block's cell had been the objective."""
         steps = int(self._steps[arena])
         cells = np.concatenate((self._path[arena, :steps], self._agents[arena : arena + 1]))
         wanted = np.broadcast_to(plane_of_each(landed[None], self.side), (steps + 1, self.side, self.side))
-        planes = planes_of(wanted, np.broadcast_to(stood, wanted.shape), cells)
+        planes = reach_planes(wanted, np.broadcast_to(stood, wanted.shape), cells, self._rule.nested_sees)
         is_last = np.arange(steps) == steps - 1
-        discounts = np.where(is_last, 0.0, gamma)
+        discounts = np.where(is_last, 0.0, self._gamma)
         self._store(planes[:-1], self._actions[arena, :steps], is_last.astype(np.float64), planes[1:], discounts)
 
 
@@ -184,20 +197,21 @@ class MainLessons(_Lessons):
     """The main agent's lessons. ``wanted`` are the cells that are still to be built."""
 
     def __init__(self, learner: Learner, rule: ObjectivesRule) -> None:
-        super().__init__(learner, rule, rule.main_arenas)
+        super().__init__(learner, rule, rule.main_update, rule.main_arenas)
         self._blocks, self._built = (np.ones(rule.main_arenas, np.int64) for _ in range(2))
         self._floor = np.linspace(0, rule.highest_epsilon, rule.main_arenas)
 
     _STATE = (*_Lessons._STATE, "blocks", "built")
 
     def round(
-        self, random: np.random.Generator, nested: ReachNetwork, epsilon: float, share: float, gamma: float, rate: float
+        self, random: np.random.Generator, nested: ReachNetwork, epsilon: float, share: float
     ) -> list[DesignDone]:
         """Let the nested agent reach an objective in every arena, then do updates; return the episodes that ended."""
         for arena in self._is_fresh.nonzero()[0].tolist():
             self._begin(arena, random)
         every = np.arange(self._arenas)
-        before = planes_of(self._wanted, self._occupied, self._agents)
+        before, _ = order_planes(self._wanted, self._occupied, self._agents)
+        self._wanted[:] = before[:, WANTED]
         values = OrderNetwork(self._learner.engine.online[0]).values(before).reshape(self._arenas, -1)
         explores = random.random(self._arenas) < np.maximum(epsilon, self._floor)
         by_chance = np.where(self._wanted.reshape(self._arenas, -1), random.random(values.shape), -1.0)
@@ -208,14 +222,13 @@ class MainLessons(_Lessons):
         on_design = has_landed & self._wanted[every, landed[:, 0], landed[:, 1]]
         self._wanted[every[on_design], landed[on_design, 0], landed[on_design, 1]] = False
         self._built += on_design
-        lost = np.minimum(take_out_lost(self._wanted, self._occupied, self._agents), MOST_LOST)
-        rewards = np.where(on_design, BLOCK, -MISTAKE) - MISTAKE * lost - self._rule.step_cost * steps
-        lowest = -MISTAKE * (1 + MOST_LOST)
+        after, lost = order_planes(self._wanted, self._occupied, self._agents)
+        self._wanted[:] = after[:, WANTED]
+        rewards = np.where(on_design, BLOCK, -MISTAKE) - MISTAKE * (lost > 0) - self._rule.step_cost * steps
         self._is_fresh = ~has_landed | ~self._wanted.any((1, 2))
-        after = planes_of(self._wanted, self._occupied, self._agents)
-        discounts = np.where(self._is_fresh, 0.0, gamma)
-        self._store(before, chosen, np.maximum(rewards, lowest), after, discounts)
-        self._update(random, share, rate)
+        discounts = np.where(self._is_fresh, 0.0, self._gamma)
+        self._store(before, chosen, np.maximum(rewards, LOWEST), after, discounts)
+        self._update(random, share)
         ended = self._is_fresh.nonzero()[0]
         return [DesignDone(self._built[arena] / self._blocks[arena], int(self._steps[arena])) for arena in ended]
 
@@ -223,9 +236,7 @@ class MainLessons(_Lessons):
         size = drawn_size(random, SMALLEST_SIZE, self._largest)
         design = drawn_design(random, size, self._rule.most_blocks)
         self._occupied[arena] = outside(size, self.side)
-        self._wanted[arena] = False
-        for x, y in design:
-            self._wanted[arena, x + 1, y + 1] = True
+        self._wanted[arena] = framed_cells(design, self.side)
         if random.random() < self._rule.any_start:
             self._agents[arena] = random.integers(1, size + 1, 2)
         else:  # the middle of the far edge, where the shipped designs start, or of the near one
@@ -239,7 +250,8 @@ class MainLessons(_Lessons):
         """
         every = np.arange(self._arenas)
         landed, steps = np.full((self._arenas, 2), NOWHERE), np.zeros(self._arenas, np.int64)
-        planes = planes_of(plane_of_each(objectives, self.side), self._occupied, self._agents)
+        wanted = plane_of_each(objectives, self.side)
+        planes = reach_planes(wanted, self._occupied, self._agents, self._rule.nested_sees)
         reaching = nested.reaching(planes)
         tried = np.zeros((self._arenas, self.side, self.side, len(Action)), np.bool_)
         rows = every

@@ -1,4 +1,4 @@
-"""Training the agent with objectives: the nested agent first, then the main agent through it (lessons.py).
+"""Training the agent with objectives: the nested agent first, then the main agent through it (objective_lessons.py).
 
 An episode is a design drawn at random, and its score the share of it that stands, of the scenario's optimum. A greedy
 evaluation builds the scenario itself, which is no lesson.
@@ -18,25 +18,12 @@ from mc_nested.learn.episode_log import EpisodeRow, EvaluationRow
 from mc_nested.learn.objective_lessons import MainLessons, NestedLessons
 from mc_nested.learn.objectives.decide import ObjectiveAgent, built_by_the_rules
 from mc_nested.learn.objectives.networks import ReachNetwork
-from mc_nested.learn.practice import Practice
 from mc_nested.learn.preset import Preset
 from mc_nested.learn.streams import practice_stream
 from mc_nested.learn.training import Training
 
 SAID_EVERY = 1000
 """Updates of the nested agent from one line about it to the next."""
-
-
-class _LessonNews(Practice):
-    """What a user should know while no episode is played."""
-
-    def __init__(self, agent: Agent, preset: Preset) -> None:
-        super().__init__(agent, preset)
-        self.lines: list[str] = []
-
-    def news(self) -> list[str]:
-        said, self.lines = self.lines, []
-        return said
 
 
 class ObjectivesTraining(Training):
@@ -53,23 +40,21 @@ class ObjectivesTraining(Training):
         if len(scenarios) > 1 or rule is None or main is None or exploration is None:
             raise PresetError("[objectives] trains one nested agent at a time: leave out --trials and --agent")
         super().__init__(scenarios, agent, preset, seed, stop_at_optimum)
-        self.practice: _LessonNews = _LessonNews(agent, preset)
         self._scenario, self._rule, self._seed = scenarios[0], rule, seed
-        self._nested = NestedLessons(agent.low_level, rule, exploration)
+        self._nested = NestedLessons(agent.low_level, rule, preset.update, exploration)
         self._main = MainLessons(main, rule)
 
     def tick(self) -> None:
         """Do a round of lessons: in every arena a step of the nested agent, or an objective of the main agent."""
         random = practice_stream(self._seed, self.agent.runs[0], self.ticks)
-        gamma, rate = self.preset.update.gamma, self.preset.update.learning_rate
         if self._nested.updates < self._rule.nested_updates:
             said = self._nested.updates // SAID_EVERY
-            self._nested.round(random, gamma, rate)
+            self._nested.round(random)
             self.env_steps += self._rule.nested_arenas
             if self._nested.updates // SAID_EVERY > said:
-                self.practice.lines.append(self._nested.in_words())
+                self.practice.untold.append(self._nested.in_words())
         else:
-            self._learn_order(random, gamma, rate)
+            self._learn_order(random)
         self.ticks += 1
 
     def abandon_episodes(self) -> None:
@@ -86,12 +71,12 @@ class ObjectivesTraining(Training):
         self._nested.load(part_of(state, "lessons/nested"))
         self._main.load(part_of(state, "lessons/main"))
 
-    def _learn_order(self, random: np.random.Generator, gamma: float, rate: float) -> None:
+    def _learn_order(self, random: np.random.Generator) -> None:
         """Do a round of the main agent; count the episodes that ended in it, and evaluate where that is due."""
         nested = ReachNetwork(self.agent.online()["low"][0])
         epsilon = float(self.epsilon[0][0])
         before, episodes = int(self.episodes_done[0]), self.preset.episodes
-        ended = self._main.round(random, nested, epsilon, before / episodes, gamma, rate)
+        ended = self._main.round(random, nested, epsilon, before / episodes)
         for done in ended[: episodes - before]:
             self.episodes_done[0] += 1
             self.env_steps += done.steps
@@ -106,7 +91,7 @@ class ObjectivesTraining(Training):
     def _evaluate(self) -> None:
         """Build the scenario greedily, by the rules of the game, and count that as an evaluation."""
         online, scenario = self.agent.online(), self._scenario
-        agent = ObjectiveAgent(online["main"][0], online["low"][0], scenario)
+        agent = ObjectiveAgent(online["main"][0], online["low"][0], scenario, self._rule.nested_sees)
         placed, steps = built_by_the_rules(agent, scenario)
         self.evaluation_steps += steps
         score = scenario.score(placed, scenario.best_material)

@@ -64,13 +64,13 @@ class Practice:
     imagination: Imagination | None = None
     """What the runs have learnt of their games; None if the preset has no [imagination]."""
 
-    @property
-    def known(self) -> Knowing | None:
-        """What the runs know of their arenas; None if they learn no more than values."""
-        return self.imagination
+    known: Knowing | None = None
+    """What the runs know of their arenas; None if they learn no more than values."""
 
     def __init__(self, agent: Agent, preset: Preset) -> None:
         self._agent, self._preset = agent, preset
+        self.untold: list[str] = []
+        """What a user should know and wasn't told yet, a line each."""
 
     @property
     def evaluate_every(self) -> int:
@@ -134,8 +134,9 @@ class Practice:
         return epsilon
 
     def news(self) -> list[str]:
-        """Return what a user should know and wasn't told yet, a line each."""
-        return []
+        """Return what was ``untold``, which is told now."""
+        told, self.untold = self.untold, []
+        return told
 
     def probes(self, run: int, material: int) -> frozenset[Cell]:  # noqa: ARG002
         """Return the unknown cells where that run's next episode should place a block."""

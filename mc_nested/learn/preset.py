@@ -4,12 +4,14 @@ from importlib import resources
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
-from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
+from pydantic import Field, ValidationError, model_validator
 
 from mc_nested.arena.action import LARGEST_SIZE, SMALLEST_SIZE
 from mc_nested.errors import PresetError
-from mc_nested.learn.dqn.engines import OBJECTIVES, ORDER, EngineChoice, misfit
-from mc_nested.toml_file import parse_toml, read_shipped_or_named
+from mc_nested.learn.dqn.engine import CNN, MLP, ORDER, REACH
+from mc_nested.learn.dqn.engines import COMPILED, NUMBERS, OBJECTIVES, EngineChoice
+from mc_nested.learn.dqn.states import Sees
+from mc_nested.toml_file import TomlTable, parse_toml, read_shipped_or_named
 
 MOST = 1_000_000_000
 """The highest count of anything: it fits 32 bits, and no training comes near it."""
@@ -35,11 +37,7 @@ Share = Annotated[float, Field(gt=0, le=1)]
 Probability = Annotated[float, Field(ge=0, le=1)]
 
 
-class _Table(BaseModel):
-    model_config = ConfigDict(extra="forbid", frozen=True, strict=True)
-
-
-class Exploration(_Table):
+class Exploration(TomlTable):
     """ε from ``start`` to ``floor`` over the first ``share`` of the episodes."""
 
     start: Probability = Field(description="ε in the first episode")
@@ -47,7 +45,7 @@ class Exploration(_Table):
     share: Share = Field(description="the share of all episodes that its way takes")
 
 
-class ExcursionRule(_Table):
+class ExcursionRule(TomlTable):
     """Exploration from the best episode so far (return_then_explore.py), instead of ε."""
 
     at_end: Probability = Field(
@@ -61,7 +59,7 @@ class ExcursionRule(_Table):
     repeat: Probability = Field(description="the probability to place a block where that is known to be on the design")
 
 
-class Imitation(_Table):
+class Imitation(TomlTable):
     """Self-imitation (self_imitation.py): a part of each batch comes from the best episode so far."""
 
     batch: Count = Field(description="how many transitions of a batch come from the best episode")
@@ -71,14 +69,14 @@ class Imitation(_Table):
     )
 
 
-class Prioritized(_Table):
+class Prioritized(TomlTable):
     """Prioritized replay (prioritized.py): transitions with large TD errors are drawn more often."""
 
     alpha: Probability = Field(description="how much priorities count; at 0 all transitions are drawn alike")
     beta: Probability = Field(description="how much of their bias is corrected; 1 is all of it")
 
 
-class Update(_Table):
+class Update(TomlTable):
     """What an update of any agent does, and how many transitions there must be before the first."""
 
     batch: Annotated[int, Field(ge=1, le=LARGEST_BATCH)] = Field(description="transitions of an update")
@@ -89,7 +87,7 @@ class Update(_Table):
     huber_delta: Positive = Field(description="Huber's δ: a TD error beyond it counts linearly, not by its square")
 
 
-class MainUpdates(_Table):
+class MainUpdates(TomlTable):
     """When the main agent learns from its one transition an episode, and how many updates follow each of them."""
 
     learning_starts: Count = Field(description="its transitions that there must be before its first update")
@@ -98,7 +96,7 @@ class MainUpdates(_Table):
     )
 
 
-class ImaginationRule(_Table):
+class ImaginationRule(TomlTable):
     """Practice in the learnt game between real episodes (imagination/), instead of exploring the real one by chance.
 
     A practice ends when the greedy policy scores ``enough`` of the best that is imaginable while cells are still to be
@@ -140,7 +138,7 @@ class ImaginationRule(_Table):
         return self
 
 
-class ObjectivesRule(_Table):
+class ObjectivesRule(TomlTable):
     """The agent with objectives (learn/objectives/): trained on designs drawn at random, for any design.
 
     The nested agent learns first, from objectives drawn at random, until it has had ``nested_updates``. Then the main
@@ -165,12 +163,24 @@ class ObjectivesRule(_Table):
     any_start: Probability = Field(
         description="the share of designs that begin anywhere; the others in the middle of an edge"
     )
+    main_update: Update = Field(description="what an update of the main agent does; [update] is the nested agent's")
     hindsight: bool = Field(
         default=True, description="whether the cell where a block landed instead was the objective, too"
     )
+    nested_sees: Sees = Field(
+        default="everything",
+        description='what the nested agent sees beside where it is: "everything"; the "objective" without what stands; '
+        'or the "surroundings" without the objective, as in the paper: then hindsight must be false',
+    )
+
+    @model_validator(mode="after")
+    def _check(self) -> "ObjectivesRule":
+        if self.hindsight and self.nested_sees == "surroundings":
+            raise ValueError('hindsight changes the objective, and "surroundings" show none: add hindsight = false')
+        return self
 
 
-class Preset(_Table):
+class Preset(TomlTable):
     """A training's hyper-parameters; ``paper`` is docs/explanation/task.md's table.
 
     With ``imagination`` it is played without ε.
@@ -251,7 +261,7 @@ class Preset(_Table):
     def for_main(self) -> "Preset":
         """Return the main agent's, which may begin to learn earlier, and with objectives has another network."""
         if self.objectives:
-            return self.model_copy(update={"network": ORDER})
+            return self.model_copy(update={"network": ORDER, "update": self.objectives.main_update})
         if self.main is None:
             return self
         update = self.update.model_copy(update={"learning_starts": self.main.learning_starts})
@@ -259,15 +269,32 @@ class Preset(_Table):
 
     @model_validator(mode="after")
     def _check_engine(self) -> "Preset":
-        wrong = misfit(
-            self.engine_choice,
-            self.states,
-            explores_by_place=self.excursions is not None,
-            imagines=self.imagination is not None,
-            encoding=self.encoding,
-        )
-        if wrong:
-            raise ValueError(wrong)
+        network, states, device, encoding = self.network, self.states, self.device, self.encoding
+        compiled, numbers = self.engine == COMPILED, states == NUMBERS
+        rules = {
+            f'states "{states}" need engine "torch": the compiled engine takes numbers alone': compiled and not numbers,
+            f'network "{network}" needs engine "torch": the compiled engine has "mlp" alone': (
+                compiled and network != MLP
+            ),
+            f'device "{device}" needs engine "torch": the compiled engine is for the processor': (
+                compiled and device != "cpu"
+            ),
+            'states "objectives" and network "reach" go together': (states == OBJECTIVES) != (network == REACH),
+            'network "cnn" needs states "image" or "screen": numbers have no neighbours': network == CNN and numbers,
+            '[imagination] needs engine "compiled" and states "numbers"': (
+                self.imagination and not (compiled and numbers)
+            ),
+            f'[excursions] go by x and y: with states "{states}", write [explore_nested]': (
+                self.excursions and not numbers
+            ),
+            f'encoding "{encoding}" is for states "numbers": leave it out': encoding != "scaled" and not numbers,
+            f'network "{network}": write "mlp", "cnn", or a module and its function, "my_module:make"': (
+                network not in (MLP, CNN, REACH) and ":" not in network
+            ),
+        }
+        for says, is_broken in rules.items():
+            if is_broken:
+                raise ValueError(says)
         return self
 
     @model_validator(mode="after")

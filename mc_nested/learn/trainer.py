@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from mc_nested.arena.env import blank_observations
 from mc_nested.arena.scenario import Scenario
 from mc_nested.arena.vector import foresees, resumable_arenas
-from mc_nested.arrays import Arrays, Bools, Float64s, Int64s, named_for, part_of
+from mc_nested.arrays import Arrays, Bools, Float64s, Int64s, copied, named_for, part_of
 from mc_nested.learn.agents import Agent
 from mc_nested.learn.choices import ChoiceStep
 from mc_nested.learn.dqn.replay import ReplayMark
@@ -158,10 +158,8 @@ class Trainer(Training):
         if not len(runs):
             return
         done, evaluated_at = self.episodes_done[runs], self._evaluated_at[runs]
-        is_last, begun_from = (
-            done >= self.preset.episodes,
-            evaluated_at < 0,
-        )  # a policy from elsewhere is evaluated as it is
+        is_last = done >= self.preset.episodes
+        begun_from = evaluated_at < 0  # a policy from elsewhere is evaluated as it is
         due = ((done % self.practice.evaluate_every == 0) | is_last) & (done > evaluated_at)
         self.practice.before_choice(runs[~begun_from])
         now.materials[runs] = self._choices.begin(runs, np.where(due, 0.0, self.epsilon[0][runs]), choice)
@@ -213,14 +211,10 @@ class EpisodeRollback:
     @classmethod
     def of(cls, agent: Agent, practice: Practice) -> "EpisodeRollback":
         """Return a copy of their state now."""
-        return cls(_copied(agent.state()), _copied(practice.state()), agent.mark())
+        return cls(copied(agent.state()), copied(practice.state()), agent.mark())
 
     def restore(self, agent: Agent, practice: Practice) -> None:
         """Put them back into that state."""
         agent.load(self.agent)
         agent.take_back(self.marks)
         practice.load(self.practice)
-
-
-def _copied(arrays: Arrays) -> Arrays:
-    return {name: array.copy() for name, array in arrays.items()}

@@ -10,14 +10,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mc_nested.arena.scenario import Scenario
-from mc_nested.arrays import Arrays, Float64s, Int64s, named_for, part_of
+from mc_nested.arrays import Arrays, Float64s, Int64s, copied, named_for, part_of
 from mc_nested.learn.agents import Agent
 from mc_nested.learn.choices import choices_of
 from mc_nested.learn.episode_log import EpisodeRow, EvaluationRow, rows_of_table, table_of_rows
 from mc_nested.learn.exploration.return_then_explore import Excursions
 from mc_nested.learn.exploration.schedules import decays_of, epsilon_after
 from mc_nested.learn.imagination.background_practice import Background
-from mc_nested.learn.imagination.imagination import Imagination
 from mc_nested.learn.learnt_game import LearntGame, LearntGameBesideIt, imagination_of
 from mc_nested.learn.practice import Practice
 from mc_nested.learn.preset import Preset
@@ -59,7 +58,7 @@ class Training:
         self.evaluation_rows: list[EvaluationRow] = []
         self.episodes_done = np.zeros(runs, dtype=np.int64)
         self.runs_finished = np.zeros(runs, dtype=np.bool_)
-        self.policies: Arrays = {**_copied(agent.online()), "scores": np.full(runs, -np.inf)}
+        self.policies: Arrays = {**copied(agent.online()), "scores": np.full(runs, -np.inf)}
         self.practice = practice_of(agent, scenarios, preset, seed, background)
         self._choices = choices_of(agent, scenarios, preset, seed)
         self._decays = decays_of(preset)
@@ -83,11 +82,6 @@ class Training:
         """The main and the nested agent's ε of the training episodes now, (runs,) each."""
         return self._epsilon
 
-    @property
-    def imagination(self) -> Imagination | None:
-        """What the runs have learnt of their games; None if the preset has no [imagination]."""
-        return self.practice.imagination
-
     def begin_from(self, online: Mapping[str, NDArray[Any]], *, evaluated_first: bool = True) -> None:
         """Begin with one run's networks, by role, in every run.
 
@@ -95,7 +89,7 @@ class Training:
         that is known (``Imagination.begin_from``).
         """
         self.agent.load_online(online)
-        self.policies |= _copied(self.agent.online())
+        self.policies |= copied(self.agent.online())
         self._evaluated_at[:] = -1 if evaluated_first else 0
 
     def state(self) -> Arrays:
@@ -185,7 +179,3 @@ def practice_of(
     if background:
         return LearntGameBesideIt(agent, preset, imagination, scenarios, background)
     return LearntGame(agent, preset, imagination, scenarios)
-
-
-def _copied(arrays: Mapping[str, NDArray[Any]]) -> Arrays:
-    return {name: array.copy() for name, array in arrays.items()}

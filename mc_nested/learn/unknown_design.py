@@ -17,13 +17,13 @@ from mc_nested.arena.vector import NO_ACTION
 from mc_nested.arrays import Arrays, Bools, Float64s, Int64s, named_for, part_of
 from mc_nested.learn.agents import AGENT_SPECS, Agent
 from mc_nested.learn.exploration.schedules import NEVER
-from mc_nested.learn.imagination.beliefs import Belief, Beliefs, beliefs_of, count_try, no_evidence
+from mc_nested.learn.imagination.beliefs import Belief, Beliefs, believe, count_try
 from mc_nested.learn.imagination.candidates import candidates
 from mc_nested.learn.imagination.experience import Experience, RealStep
-from mc_nested.learn.imagination.imagination import Surroundings
+from mc_nested.learn.imagination.imagination import GivenFacts
 from mc_nested.learn.imagination.known_arena import KnownArena, known_arena
 from mc_nested.learn.imagination.material_choice import scores_of_materials
-from mc_nested.learn.objectives.arenas import framed, framed_cells, outside, side_for, take_out_lost
+from mc_nested.learn.objectives.arenas import framed, framed_cells, outside, reached_from, side_for
 from mc_nested.learn.objectives.decide import ObjectiveAgent, Plan
 from mc_nested.learn.objectives.weights import Weights, agent_for_cells
 from mc_nested.learn.practice import Practice, Step
@@ -56,20 +56,20 @@ class UnknownDesigns(Agent):
 
     Args:
         weights: of both networks.
-        surroundings: of each run; all arenas are of one size, with the same number of materials.
+        given: of each run; all arenas are of one size, with the same number of materials.
     """
 
-    def __init__(self, weights: Weights, surroundings: Sequence[Surroundings]) -> None:
-        self.runs, self.builders, self.spec = tuple(range(len(surroundings))), 1, AGENT_SPECS["nested"]
-        self.size, self.main = surroundings[0].size, None
+    def __init__(self, weights: Weights, given: Sequence[GivenFacts]) -> None:
+        self.runs, self.builders, self.spec = tuple(range(len(given))), 1, AGENT_SPECS["nested"]
+        self.size, self.main = given[0].size, None
         self._sees, self._numbered, self._team = "numbers", False, None
-        self._weights, self._surroundings = weights, surroundings
-        self._seen = [Experience() for _ in surroundings]
+        self._weights, self._given_facts = weights, given
+        self.seen = [Experience() for _ in given]
         # What every try so far has shown, and what it had before the episode that runs.
-        self._evidence = np.stack([no_evidence(self.size) for _ in surroundings])
-        self._before = self._evidence.copy()
-        self._materials_now = np.zeros(len(surroundings), dtype=np.int64)
-        self._episodes = [_Episode(each.start[2]) for each in surroundings]
+        self.evidence = np.zeros((len(given), 2, self.size, self.size))
+        self.before = self.evidence.copy()
+        self._materials_now = np.zeros(len(given), dtype=np.int64)
+        self._episodes = [_Episode(each.start[2]) for each in given]
         self._given: Arrays = {}
 
     @property
@@ -85,7 +85,7 @@ class UnknownDesigns(Agent):
 
     def begin_episodes(self, runs: Int64s) -> Int64s:
         for run in runs.tolist():
-            self._episodes[run] = _Episode(self._surroundings[run].start[2])
+            self._episodes[run] = _Episode(self._given_facts[run].start[2])
             self._materials_now[run] = self._worth(run).argmax()
         chosen: Int64s = self._materials_now[runs]
         return chosen
@@ -108,20 +108,11 @@ class UnknownDesigns(Agent):
                 actions[run] = self._next(run, row, replace(now))
         return actions
 
-    def begin(self, run: int) -> None:
-        """Begin to see an episode."""
-        self._seen[run].begin()
-        self._before[run] = self._evidence[run]
-
     def see(self, run: int, step: RealStep) -> None:
         """See what the last action did, and whether it was paid."""
-        self._seen[run].add(step)
+        self.seen[run].add(step)
         if step.next_blocks < step.blocks:
-            count_try(self._evidence[run], (step.next_x + LANDS[0], step.next_y + LANDS[1]), step.paid)
-
-    def end(self, run: int, score: float) -> None:
-        """See what the episode scored."""
-        self._seen[run].end(int(self._materials_now[run]), score)
+            count_try(self.evidence[run], (step.next_x + LANDS[0], step.next_y + LANDS[1]), step.paid)
 
     def beliefs(self, run: int) -> Beliefs:
         """Return what that run thinks of every cell."""
@@ -129,15 +120,15 @@ class UnknownDesigns(Agent):
             pays = self._given["pays"][run].reshape(self.size, self.size)
             cells = np.where(pays, Belief.PAYS, Belief.PAYS_NOT).astype(np.int8)
             return Beliefs(cells, pays.astype(np.float32), False, float(pays.sum()))
-        return beliefs_of(self._evidence[run], LANDS, self._surroundings[run].start[2])
+        return believe(self.evidence[run], LANDS, self._given_facts[run].start[2])
 
     def episodes(self, run: int) -> int:
         """Return how many real episodes that run has begun."""
-        return self._seen[run].episodes
+        return self.seen[run].episodes
 
     def known_arena(self, run: int) -> KnownArena:
         """Return what that run knows of its arena now, and where the blocks of its real episodes went."""
-        return known_arena(self._seen[run], LANDS, self.beliefs(run))
+        return known_arena(self.seen[run], LANDS, self.beliefs(run))
 
     def online(self) -> Arrays:
         """Return the cells that are known to pay, (runs, cells), and what each material brings, (runs, materials)."""
@@ -153,19 +144,19 @@ class UnknownDesigns(Agent):
 
     def state(self) -> Arrays:
         """Return what each run has seen, and the material that it has in hand, by name."""
-        every = (named_for(str(run), seen.state()) for run, seen in enumerate(self._seen))
+        every = (named_for(str(run), seen.state()) for run, seen in enumerate(self.seen))
         seen = {name: kept for part in every for name, kept in part.items()}
-        return {"materials": self._materials_now, "before": self._before, **seen}
+        return {"materials": self._materials_now, "before": self.before, **seen}
 
     def load(self, state: Mapping[str, NDArray[Any]]) -> None:
         """Continue from what ``state`` returned: the steps of an episode that runs lead to where it is."""
-        self._before[:] = self._evidence[:] = state["before"]
+        self.before[:] = self.evidence[:] = state["before"]
         self._materials_now[:] = state["materials"]
-        for run, seen in enumerate(self._seen):
+        for run, seen in enumerate(self.seen):
             kept = part_of(state, str(run))
             first = int(kept["first_of_episode"][-1]) if len(kept["first_of_episode"]) else 0
             seen.load({**kept, "steps": kept["steps"][:first]})
-            self._episodes[run] = _Episode(self._surroundings[run].start[2])
+            self._episodes[run] = _Episode(self._given_facts[run].start[2])
             for step in (RealStep(*row) for row in kept["steps"][first:].tolist()):
                 self._next(run, step[:3], self._episodes[run])
                 self.see(run, step)
@@ -175,8 +166,8 @@ class UnknownDesigns(Agent):
         if self._given:
             worth: Float64s = self._given["worth"][run]
             return worth
-        here = self._surroundings[run]
-        return scores_of_materials(self._seen[run].extras, here.materials, here.start[2], self.beliefs(run).most)
+        here = self._given_facts[run]
+        return scores_of_materials(self.seen[run].extras, here.materials, here.start[2], self.beliefs(run).most)
 
     def _next(self, run: int, state: Sequence[int], now: _Episode) -> int:
         """Return what that run does in a state (x, y, b, …) of its episode, which goes on to there."""
@@ -197,9 +188,8 @@ class UnknownDesigns(Agent):
         """Return where a block can land now, (size, size)."""
         side = side_for(self.size)
         stands = outside(self.size, side) | framed_cells(placed, side)
-        cells = ~stands[None]
-        take_out_lost(cells, stands[None], np.array([framed(cell)]))
-        return cells[0, 1:-1, 1:-1]
+        reached = reached_from(stands, *framed(cell), np.empty((side * side, 2), np.int64))
+        return ~stands[1:-1, 1:-1] & reached[1:-1, :-2]
 
 
 def playing(preset: Preset) -> Preset:
@@ -220,11 +210,7 @@ class Tries(Practice):
 
     def __init__(self, agent: UnknownDesigns, preset: Preset) -> None:
         super().__init__(agent, preset)
-        self._player = agent
-
-    @property
-    def known(self) -> UnknownDesigns:
-        return self._player
+        self.known = self._player = agent
 
     def before_episode(self, runs: Int64s, materials: Int64s, reset: Callable[[], None]) -> Bools:  # noqa: ARG002 - no chance
         reset()
@@ -235,7 +221,8 @@ class Tries(Practice):
 
     def begin(self, runs: Int64s, numbers: Float64s) -> None:  # noqa: ARG002 - nothing is drawn
         for run in runs.tolist():
-            self._player.begin(run)
+            self._player.seen[run].begin()
+            self._player.before[run] = self._player.evidence[run]
 
     def learn(self, step: Step) -> None:
         for run in step.running.nonzero()[0].tolist():
@@ -243,6 +230,6 @@ class Tries(Practice):
             done = [*before, int(step.actions[run]), *after, int(step.rewards[run] > 0), int(step.materials[run])]
             self._player.see(run, RealStep(*done))
 
-    def end(self, runs: Int64s, materials: Int64s, scores: Float64s) -> None:  # noqa: ARG002 - it remembers its own
+    def end(self, runs: Int64s, materials: Int64s, scores: Float64s) -> None:
         for run in runs.tolist():
-            self._player.end(run, float(scores[run]))
+            self._player.seen[run].end(int(materials[run]), float(scores[run]))

@@ -1,7 +1,6 @@
 """GameConnection: one running game: its window's devices, the one owner of held keys, and the screen reader."""
 
 from collections.abc import Callable
-from types import TracebackType
 
 from mc_nested.errors import ProfileError
 from mc_nested.live.devices import Devices
@@ -53,10 +52,8 @@ class GameConnection:
         self.controller.__enter__()
         return self
 
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, traceback: TracebackType | None
-    ) -> None:
-        self.controller.__exit__(kind, error, traceback)
+    def __exit__(self, *_: object) -> None:
+        self.controller.__exit__()
 
     @property
     def screen(self) -> GameScreen:
@@ -98,15 +95,6 @@ def prepare_keyboard(profile: Profile, devices: Devices) -> None:
     """
     if game_in(devices.display.title(), profile.game).takes_symbols:
         devices.keyboard.go_by_symbols(profile.keys.pressed())
-
-
-def connect(profile: Profile, devices: Devices, *, is_server_allowed: bool = False) -> GameConnection:
-    """Return a connection to the game in that window, read with the profile's font and layout.
-
-    Raises ProfileError or FontError where the profile names no font that can be used.
-    """
-    controller = InputController(devices, profile.input)
-    return GameConnection(devices, controller, is_server_allowed=is_server_allowed).for_profile(profile)
 
 
 def screen_for(profile: Profile, devices: Devices) -> WindowScreen:

@@ -2,7 +2,6 @@
 
 from collections.abc import Callable, Collection, Iterable
 from pathlib import Path
-from types import TracebackType
 
 from mc_nested.arena import rules
 from mc_nested.arena.action import Action, Cell
@@ -106,10 +105,8 @@ class LiveGame:
         self.connection.__enter__()
         return self
 
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, traceback: TracebackType | None
-    ) -> None:
-        self.connection.__exit__(kind, error, traceback)
+    def __exit__(self, *_: object) -> None:
+        self.connection.__exit__()
 
     def reset(self, material: int) -> Cell:
         """Clear the marked blocks, stand on the start cell, select the material; position and view are read back.
@@ -221,20 +218,20 @@ class LiveGame:
 
     def _perform(self, cell: Cell, action: Action, following: Following | None) -> Outcome:
         solid = self._placed.keys() | self._others
-        target = rules.moved(cell, action, solid, self._scenario.size)
-        landing = rules.landing(target, action, solid, self._scenario.size)
-        if target == cell and landing is None:
+        leg = self._leg(cell, action, solid)
+        if not (leg.sign or leg.places):
             return Outcome(self._body.stay_in(cell), None)
-        after = following and self._leg(target, following[0], solid | ({landing} if landing else set()))
-        axis, sign = rules.axis_of(action)
-        leg = Leg(target, axis, sign if target != cell else 0, landing is not None)
-        return Outcome(target, self._body.go_on(leg, after, self._placed, self._shown_id))
+        then = solid | {rules.front_of(leg.cell)} if leg.places else solid
+        after = following and self._leg(leg.cell, following[0], then)
+        after = after if after and after.sign else None  # one that stays is no walk
+        return Outcome(leg.cell, self._body.go_on(leg, after, self._placed, self._shown_id))
 
-    def _leg(self, cell: Cell, action: Action, solid: Collection[Cell]) -> Leg | None:
-        """Return an action that moves the agent as the body does it; None for one that doesn't."""
+    def _leg(self, cell: Cell, action: Action, solid: Collection[Cell]) -> Leg:
+        """Return an action as the body does it."""
         target = rules.moved(cell, action, solid, self._scenario.size)
+        axis, sign = rules.axis_of(action)
         places = rules.landing(target, action, solid, self._scenario.size) is not None
-        return None if target == cell else Leg(target, *rules.axis_of(action), places)
+        return Leg(target, axis, sign if target != cell else 0, places)
 
     @property
     def _shown_id(self) -> str:

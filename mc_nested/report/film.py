@@ -3,12 +3,12 @@
 import shutil
 import tempfile
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager, suppress
+from contextlib import AbstractContextManager, contextmanager, suppress
 from pathlib import Path
 from typing import Protocol
 
 from mc_nested.arena.drawing import Picture
-from mc_nested.atomic_file import atomic_write
+from mc_nested.atomic_file import atomic_write, refused_as
 from mc_nested.errors import FilmError
 from mc_nested.report.film_file import GifEncoder, Mp4Encoder, check_ffmpeg
 
@@ -140,10 +140,5 @@ class _NothingShownError(Exception):
     """Ends the writing of a film that shows nothing."""
 
 
-@contextmanager
-def _one_line(path: Path) -> Iterator[None]:
-    try:
-        yield
-    except OSError as error:
-        why = error.strerror or error
-        raise FilmError(f"{path}: the film can't be written ({why}): make room, or name another folder") from None
+def _one_line(path: Path) -> AbstractContextManager[None]:
+    return refused_as(FilmError, path, "make room, or name another folder")

@@ -14,7 +14,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.ticker import NullFormatter, StrMethodFormatter
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import Field
 
 from mc_nested.arrays import Float64s
 from mc_nested.errors import PresetError
@@ -25,9 +25,9 @@ from mc_nested.studies.config import StudyConfig
 from mc_nested.studies.inference import RESAMPLES, Interval, percentiles
 from mc_nested.studies.profiles import played_by
 from mc_nested.studies.study import Report, Study, StudyOptions, with_episodes
-from mc_nested.studies.table import episodes, markdown, number_of_trials
+from mc_nested.studies.table import Cells, episodes, markdown_of, number_of_trials
 from mc_nested.studies.trial import Trial, on_each, optimum_of, trial_table
-from mc_nested.toml_file import parse_toml
+from mc_nested.toml_file import TomlTable, parse_toml
 
 FILE = "ablation.toml"
 MODEL_BASED = "model-based"
@@ -35,10 +35,8 @@ MODEL_BASED = "model-based"
 COLUMNS = ("part", "base", "scenario", "trial", "optimum", "best_score", "played_to_optimum", "updates")
 
 
-class AblatedPart(BaseModel):
+class AblatedPart(TomlTable):
     """What is off: the preset ``base`` with some values changed, or without some of its tables."""
-
-    model_config = ConfigDict(extra="forbid", frozen=True, strict=True)
 
     name: str
     base: str
@@ -53,10 +51,8 @@ class AblatedPart(BaseModel):
         return parse_preset(tomlkit.dumps(changed_tables(kept, self.preset)), f"{FILE}, {self.name}")
 
 
-class AblationFile(BaseModel):
+class AblationFile(TomlTable):
     """The shipped parts, and how many episodes those of model-based have at most."""
-
-    model_config = ConfigDict(extra="forbid", frozen=True, strict=True)
 
     live_episodes: int
     rows: list[AblatedPart]
@@ -126,17 +122,6 @@ def _interval_of_median(played: Float64s) -> Interval | None:
     return percentiles(np.median(played[drawn], axis=1))
 
 
-HEADER = (
-    "what is off",
-    "what that means",
-    "solved",
-    "median (95 %)",
-    "worst",
-    "best score",
-    "updates, median",
-    "given up after",
-)
-
 WHAT_IT_IS = """\
 The preset `model-based` is double Q-learning alone: there is no imitation in it, of its own episodes or of anybody's.
 The first line has all of its parts, and each of the next ones is without one, or with another value. `tuned` is the
@@ -155,7 +140,7 @@ def report(config: StudyConfig, trials: Sequence[Trial]) -> Report:
     found = {scenario: measures_on(trials, scenario) for scenario in optimum}
     of_each = f"{number_of_trials(config.trials)} of each line on each design"
     tables = [
-        f"## {scenario}, optimum {optimum[scenario]:g}\n\n{markdown(HEADER, [_line(part) for part in own])}"
+        f"## {scenario}, optimum {optimum[scenario]:g}\n\n{markdown_of([_line(part) for part in own])}"
         for scenario, own in found.items()
     ]
     return Report(
@@ -172,18 +157,18 @@ def report(config: StudyConfig, trials: Sequence[Trial]) -> Report:
     )
 
 
-def _line(measures: PartMeasures) -> Sequence[str]:
+def _line(measures: PartMeasures) -> Cells:
     interval = measures.interval if measures.interval and np.isfinite(measures.interval.low) else None
     ends = f" ({episodes(interval.low)} to {episodes(interval.high)})" if interval else ""
     return (
-        measures.arm.name,
-        measures.arm.labels["what"],
-        f"{measures.solved} of {len(measures.played)}",
-        f"{episodes(measures.median)}{ends}",
-        episodes(measures.worst),
-        f"{measures.best_score:g}",
-        f"{measures.updates:,.0f}",
-        f"{measures.arm.preset.episodes:,}",
+        ("what is off", measures.arm.name),
+        ("what that means", measures.arm.labels["what"]),
+        ("solved", f"{measures.solved} of {len(measures.played)}"),
+        ("median (95 %)", f"{episodes(measures.median)}{ends}"),
+        ("worst", episodes(measures.worst)),
+        ("best score", f"{measures.best_score:g}"),
+        ("updates, median", f"{measures.updates:,.0f}"),
+        ("given up after", f"{measures.arm.preset.episodes:,}"),
     )
 
 

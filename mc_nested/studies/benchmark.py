@@ -26,7 +26,7 @@ from mc_nested.studies.config import StudyConfig
 from mc_nested.studies.profiles import Measures, PlayedDesigns, measures_of, played_designs, profile, profile_band
 from mc_nested.studies.sb3 import HOW_TO_INSTALL, is_installed
 from mc_nested.studies.study import Report, Study, StudyOptions
-from mc_nested.studies.table import Table, markdown, number_of_trials
+from mc_nested.studies.table import markdown_of, number_of_trials, table_of
 from mc_nested.studies.trial import Trial, trial_table
 
 BASELINE, SB3_PRESET = "baseline.toml", "dqn"
@@ -135,17 +135,6 @@ def _reason_against(agent: str, preset: Preset) -> str:
     return ""
 
 
-HEADER = (
-    "agent, preset",
-    "solved",
-    "median",
-    "interquartile mean (95 %)",
-    "worst",
-    "without a prior",
-    "within twice that",
-    "given up after",
-)
-
 WHAT_KINDS_ARE = {
     EDGE: "every block shares an edge with another, and all hang together so",
     CORNER: "they hang together by corners, too",
@@ -169,15 +158,13 @@ def report(config: StudyConfig, trials: Sequence[Trial]) -> Report:
     for trial in trials:
         contestants.setdefault(trial.arm.name, []).append(trial)
     overall = [(name, measures_of(played_designs(own))) for name, own in contestants.items()]
-    heads = ("episodes to the optimum", "solved", "median", "interquartile mean", "worst")
+    shown = [{"episodes to the optimum": name, **dict(own.in_words())} for name, own in overall]
     return Report(
         text=_text(config, contestants, overall),
         figure=_figure(contestants),
         tables={"benchmark.csv": trial_table(trials, COLUMNS)},
         found={"measures": [{"contestant": name, **dataclasses.asdict(own)} for name, own in overall]},
-        shown=Table(
-            (*heads, "without a prior", "within twice that"), [(name, *own.in_words()) for name, own in overall]
-        ),
+        shown=table_of(shown),
     )
 
 
@@ -218,8 +205,10 @@ def _designs(number: int) -> str:
 
 
 def _table(contestants: Mapping[str, Sequence[Trial]], found: Sequence[tuple[str, Measures]]) -> str:
-    rows = [(name, *own.in_words(), f"{contestants[name][0].arm.preset.episodes:,}") for name, own in found]
-    return markdown(HEADER, rows)
+    given_up = {name: f"{own[0].arm.preset.episodes:,}" for name, own in contestants.items()}
+    return markdown_of(
+        [[("agent, preset", name), *own.in_words(), ("given up after", given_up[name])] for name, own in found]
+    )
 
 
 COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9")

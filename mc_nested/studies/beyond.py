@@ -26,7 +26,17 @@ from mc_nested.studies.job import JobBuilders
 from mc_nested.studies.power import MOST_TRIALS, POWER, deciding_trials
 from mc_nested.studies.reproduce import found_of
 from mc_nested.studies.study import Report, Study, StudyOptions, with_episodes
-from mc_nested.studies.table import NONE, Table, interval, interval_of_mean, markdown, mean, number_of_trials
+from mc_nested.studies.table import (
+    NONE,
+    Cells,
+    Table,
+    interval,
+    interval_of_mean,
+    markdown,
+    markdown_of,
+    mean,
+    number_of_trials,
+)
 from mc_nested.studies.trial import Trial, greedy_table
 from mc_nested.studies.verdicts import JudgedClaim
 
@@ -240,43 +250,34 @@ def _verdicts(claims: Sequence[JudgedClaim]) -> str:
 def _scores(arms: Sequence[ArmResults]) -> str:
     rows = [
         (
-            arm.scenario,
-            arm.name,
-            str(len(arm.trials)),
-            f"{arm.arm.preset.episodes:,}",
-            *((NONE, NONE) if arm.stops else _mean_and_interval(arm.last_ten, arm.optimum)),
-            *_mean_and_interval(arm.best, arm.optimum),
+            ("scenario", arm.scenario),
+            ("agent", arm.name),
+            ("trials", str(len(arm.trials))),
+            ("episodes at most", f"{arm.arm.preset.episodes:,}"),
+            *_mean_and_interval("last ten", None if arm.stops else arm.last_ten, arm.optimum),
+            *_mean_and_interval("best", arm.best, arm.optimum),
             *_reached(arm),
         )
         for arm in arms
     ]
-    header = (
-        "scenario",
-        "agent",
-        "trials",
-        "episodes at most",
-        "last ten",
-        "95 % interval",
-        "best",
-        "95 % interval",
-        "trials that reached the optimum",
-        "95 % interval of the share",
-        "episodes before, median",
-    )
     optimum = ", ".join(dict.fromkeys(f"{arm.scenario} {arm.optimum:g}" for arm in arms))
     ends = " A trial that ends at the optimum has no last ten." if any(arm.stops for arm in arms) else ""
-    return f"{markdown(header, rows)}\n\nOptimum: {optimum}.{ends}"
+    return f"{markdown_of(rows)}\n\nOptimum: {optimum}.{ends}"
 
 
-def _mean_and_interval(trials: Float64s, optimum: float) -> tuple[str, str]:
-    return mean(trials), interval_of_mean(trials, optimum)
+def _mean_and_interval(of: str, trials: Float64s | None, optimum: float) -> Cells:
+    found = (NONE, NONE) if trials is None else (mean(trials), interval_of_mean(trials, optimum))
+    return [(of, found[0]), ("95 % interval", found[1])]
 
 
-def _reached(arm: ArmResults) -> tuple[str, str, str]:
+def _reached(arm: ArmResults) -> Cells:
     until = [trial.episodes_to_optimum for trial in arm.trials]
     reached = [episode for episode in until if episode is not None]
-    share = interval(share_interval(len(reached), len(arm.trials)))
-    return f"{len(reached)} of {len(arm.trials)}", share, f"{np.median(reached):g}" if reached else NONE
+    return [
+        ("trials that reached the optimum", f"{len(reached)} of {len(arm.trials)}"),
+        ("95 % interval of the share", interval(share_interval(len(reached), len(arm.trials)))),
+        ("episodes before, median", f"{np.median(reached):g}" if reached else NONE),
+    ]
 
 
 def _more(own: Sequence[ArmResults], topic: str) -> list[str]:
@@ -286,40 +287,28 @@ def _more(own: Sequence[ArmResults], topic: str) -> list[str]:
     steps, updates = equal_budget(own, "steps"), equal_budget(own, "updates")
     rows = [
         (
-            str(arm.materials),
-            arm.name,
-            *_mean_and_interval(arm.within(steps, "steps"), arm.optimum),
-            *_mean_and_interval(arm.within(updates, "updates"), arm.optimum),
-            mean(arm.early(steps, "steps")),
-            str(arm.trials[0].networks),
-            f"{arm.trials[0].parameters:,}",
-            f"{sum(trial.outcome.updates for trial in arm.trials):,}",
-            f"{sum(trial.outcome.env_steps for trial in arm.trials):,}",
-            mean(np.array([trial.outcome.replay_bytes or 0 for trial in arm.trials]) / MEGA),
-            f"{sum(trial.seconds for trial in arm.trials):.1f}",
+            ("main actions", str(arm.materials)),
+            ("agent", arm.name),
+            *_mean_and_interval(f"last ten until {steps:,} steps", arm.within(steps, "steps"), arm.optimum),
+            *_mean_and_interval(f"last ten until {updates:,} updates", arm.within(updates, "updates"), arm.optimum),
+            ("early", mean(arm.early(steps, "steps"))),
+            ("networks", str(arm.trials[0].networks)),
+            ("parameters", f"{arm.trials[0].parameters:,}"),
+            ("updates, all trials", f"{sum(trial.outcome.updates for trial in arm.trials):,}"),
+            ("steps, all trials", f"{sum(trial.outcome.env_steps for trial in arm.trials):,}"),
+            (
+                "replays, MB a trial",
+                mean(np.array([trial.outcome.replay_bytes or 0 for trial in arm.trials]) / MEGA),
+            ),
+            ("seconds of a core, all trials", f"{sum(trial.seconds for trial in arm.trials):.1f}"),
         )
         for arm in own
     ]
-    header = (
-        "main actions",
-        "agent",
-        f"last ten until {steps:,} steps",
-        "95 % interval",
-        f"last ten until {updates:,} updates",
-        "95 % interval",
-        "early",
-        "networks",
-        "parameters",
-        "updates, all trials",
-        "steps, all trials",
-        "replays, MB a trial",
-        "seconds of a core, all trials",
-    )
     early = (
         f"Early: the mean over a trial's evaluations until {steps // 3:,} steps. Seconds are of the whole training, "
         "the simulator too; another run won't repeat them."
     )
-    return [f"{markdown(header, rows)}\n\n{early}"]
+    return [f"{markdown_of(rows)}\n\n{early}"]
 
 
 REPORTS: Mapping[str, tuple[str, str, Callable[[Arms], Figure]]] = {

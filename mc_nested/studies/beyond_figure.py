@@ -14,7 +14,7 @@ from mc_nested.arrays import Float64s
 from mc_nested.learn.builders import NETWORKS
 from mc_nested.report.curve import align_trials, t_interval
 from mc_nested.studies.claims.arm_results import ArmResults, Arms
-from mc_nested.studies.claims.beyond import alone_among, designs_of, equal_budget, of_topic, teams_of
+from mc_nested.studies.claims.beyond import alone_among, equal_budget, of_topic, teams_of
 from mc_nested.studies.figure5 import BAND, CURVES, OPTIMUM
 from mc_nested.studies.table import number_of_trials
 
@@ -39,7 +39,7 @@ def beyond_figure(arms: Arms) -> Figure:
     images = of_topic(arms, "images")
     figure = Figure(figsize=(13.0, 8.2), dpi=140, layout="constrained")
     panels = list(figure.subplots(2, COLUMNS).flat)
-    for axes, design in zip(panels, designs_of(images), strict=False):
+    for axes, design in zip(panels, dict.fromkeys(arm.scenario for arm in images), strict=False):
         _draw_curves(axes, [arm for arm in images if arm.scenario == design], f"{design}: images and numbers")
     parts = of_topic(arms, "parts")
     _draw_curves(panels[3], parts, f"{parts[0].scenario}: a material for each part")

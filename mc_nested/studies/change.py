@@ -5,7 +5,7 @@ from importlib import resources
 from typing import Annotated, Any
 
 import tomlkit
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import Field
 
 from mc_nested.arena.scenario import Scenario
 from mc_nested.arena.scenario_file import LONGEST, scenario_of, table_of
@@ -14,17 +14,15 @@ from mc_nested.learn.agents import AGENT_SPECS, AgentName, check_exploration
 from mc_nested.learn.preset import Preset, parse_preset
 from mc_nested.studies.arm import Arm, spec_of
 from mc_nested.studies.study import StudyOptions
-from mc_nested.toml_file import parse_toml
+from mc_nested.toml_file import TomlTable, parse_toml
 
 
-class Change(BaseModel):
+class Change(TomlTable):
     """One changed choice; what isn't given stays as it is. An empty choice is the base: nothing is changed.
 
     ``needs``: a table of the preset; where the preset lacks it, the change is left out. ``designs``: other drawings for
     the scenarios of those names. ``sees_choice`` is the single agent's. ``agent`` is who learns where not all do.
     """
-
-    model_config = ConfigDict(extra="forbid", frozen=True, strict=True)
 
     choice: str = ""
     value: str = ""
@@ -86,8 +84,7 @@ class Change(BaseModel):
         )
 
 
-class _Changes(BaseModel):
-    model_config = ConfigDict(extra="forbid", frozen=True, strict=True)
+class _Changes(TomlTable):
     changes: list[Change]
 
 

@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 
 from mc_nested.studies.inference import ALPHA, RESAMPLES, SIMULATED
-from mc_nested.studies.table import interval, markdown, probability, two
+from mc_nested.studies.table import Cells, interval, markdown, markdown_of, probability, two
 from mc_nested.studies.verdicts import Evidence, Finding, JudgedClaim
 
 METHOD = """\
@@ -63,28 +63,18 @@ def claim_section(judged: JudgedClaim) -> str:
     claim = judged.claim
     rows = [
         (
-            finding.evidence.what,
-            _figures(finding.evidence),
-            interval(finding.evidence.interval, finding.evidence.coverage),
+            ("", finding.evidence.what),
+            ("measured", _figures(finding.evidence)),
+            ("95 % interval", interval(finding.evidence.interval, finding.evidence.coverage)),
             *_p_values(finding),
-            _verdict(finding),
+            ("verdict", _verdict(finding)),
         )
         for finding in judged.findings
     ]
-    header = (
-        "",
-        "measured",
-        "95 % interval",
-        "p",
-        "p of the opposite",
-        "after Holm",
-        "p of less than a block, after Holm",
-        "verdict",
-    )
     return (
         f"### ({claim.letter}) {claim.title}: {judged.words}\n\n"
         f'The paper, section {claim.section}: "{claim.paper}".\n\n'
-        f"{markdown(header, rows)}\n\n{claim.rule}"
+        f"{markdown_of(rows)}\n\n{claim.rule}"
     )
 
 
@@ -115,10 +105,11 @@ def _figures(evidence: Evidence) -> str:
     )
 
 
-def _p_values(finding: Finding) -> Sequence[str]:
+def _p_values(finding: Finding) -> Cells:
     tails = finding.evidence.tails
     own = (tails.claim, tails.against, finding.against, finding.small) if tails else (None,) * 4
-    return [probability(p) for p in own]
+    names = ("p", "p of the opposite", "after Holm", "p of less than a block, after Holm")
+    return [(name, probability(p)) for name, p in zip(names, own, strict=True)]
 
 
 def _verdict(finding: Finding) -> str:

@@ -4,7 +4,7 @@ import itertools
 from collections.abc import Sequence
 from typing import Annotated, TypeVar
 
-from pydantic import AfterValidator, BaseModel, ConfigDict, Field
+from pydantic import Field
 
 from mc_nested.arena.cooperative.team import MOST_BUILDERS
 from mc_nested.arena.corpus_file import MOST_DESIGNS
@@ -15,21 +15,14 @@ from mc_nested.learn.preset import Preset
 from mc_nested.learn.runs.folder_kind import FORMAT
 from mc_nested.studies.arm import AGENTS, Arm
 from mc_nested.studies.job import Job, JobBuilders, cut_into_jobs, side_by_side
+from mc_nested.toml_file import TomlTable, one_of
 
 
-def _known(name: str) -> str:
-    if name not in AGENTS:
-        raise ValueError(f"must be one of {', '.join(AGENTS)}")
-    return name
-
-
-class ArmTable(BaseModel):
+class ArmTable(TomlTable):
     """An arm as config.toml has it, where presets and scenarios are named; arm.py says what each key is."""
 
-    model_config = ConfigDict(extra="forbid", frozen=True, strict=True)
-
     name: str
-    agent: Annotated[str, AfterValidator(_known)]
+    agent: Annotated[str, one_of(AGENTS)]
     preset: str
     preset_name: str
     scenarios: Annotated[list[str], Field(min_length=1, max_length=MOST_DESIGNS)]
@@ -43,14 +36,12 @@ class ArmTable(BaseModel):
     together: Annotated[int, Field(ge=1)] | None = None
 
 
-class StudyConfig(BaseModel):
+class StudyConfig(TomlTable):
     """A study with its arms in the order of its report.
 
     ``jobs`` is the number of processes, which may decide what trains as one batch, but not the results. ``notes`` are
     what its report says of it beside.
     """
-
-    model_config = ConfigDict(extra="forbid", frozen=True, strict=True)
 
     format: int = FORMAT
     study: str

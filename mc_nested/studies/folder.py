@@ -1,12 +1,12 @@
 """The folder of a study: config.toml, and jobs/ with each job's checkpoint or outcome."""
 
-from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Sequence
+from contextlib import AbstractContextManager
 from pathlib import Path
 
 import tomlkit
 
-from mc_nested.atomic_file import atomic_write
+from mc_nested.atomic_file import atomic_write, refused_as
 from mc_nested.errors import RunError
 from mc_nested.learn.runs.checkpoint import fingerprint
 from mc_nested.learn.runs.folder_kind import check_config, check_free, verb_of_study
@@ -65,7 +65,7 @@ class StudyFolder:
 
     def begin(self) -> None:
         """Make the folder and write the config, unless they are there; RunError if the disk refuses."""
-        try:
+        with refused_as(RunError, self.path, "name another folder, or make room"):
             (self.path / JOBS_FOLDER).mkdir(parents=True, exist_ok=True)
             for file, text in (
                 (self.path / CONFIG, tomlkit.dumps(self.config.model_dump(exclude_none=True))),
@@ -74,10 +74,6 @@ class StudyFolder:
                 if not file.exists():
                     with atomic_write(file) as unfinished:
                         unfinished.write_text(text, encoding="utf-8")
-        except OSError as error:
-            raise RunError(
-                f"{self.path}: can't be written, {error.strerror}: name another folder, or make room"
-            ) from error
 
     def folder_of(self, job: Job) -> Path:
         """Return the job's own folder."""
@@ -87,15 +83,9 @@ class StudyFolder:
         """Return every job with its outcome, None if it isn't finished; RunError if a file can't be used."""
         return [(job, outcome_of(job, self.folder_of(job))) for job in self.jobs]
 
-    @contextmanager
-    def writing(self) -> Iterator[None]:
+    def writing(self) -> AbstractContextManager[None]:
         """Raise RunError, one line that says how to resume, if the disk refuses what the block writes here."""
-        try:
-            yield
-        except OSError as error:
-            raise RunError(
-                f"{self.path}: can't be written ({error}): make room, then {self.resume_command} goes on"
-            ) from error
+        return refused_as(RunError, self.path, f"make room, then {self.resume_command} goes on")
 
     @property
     def _stamp(self) -> str:

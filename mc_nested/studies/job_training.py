@@ -12,6 +12,8 @@ from numpy.typing import NDArray
 
 from mc_nested.arena.cooperative.team import Team, team_of
 from mc_nested.arrays import Arrays, Int64s, named_for, part_of
+from mc_nested.atomic_file import refused_as
+from mc_nested.errors import RunError
 from mc_nested.learn.agents import AGENT_SPECS, Agent
 from mc_nested.learn.builders import Builders
 from mc_nested.learn.episode_log import EvaluationRow
@@ -19,7 +21,7 @@ from mc_nested.learn.runs.checkpoint import Checkpoint, fingerprint
 from mc_nested.learn.trainer import Trainer
 from mc_nested.learn.training import Training
 from mc_nested.studies.job import Job
-from mc_nested.studies.outcome import Evaluated, JobOutcome, RunOutcome, evaluated, write_outcome, writing
+from mc_nested.studies.outcome import Evaluated, JobOutcome, RunOutcome, evaluated, write_outcome
 
 
 class TrainedJob(Protocol):
@@ -139,7 +141,7 @@ class JobTraining:
 
     def save(self) -> None:
         """Save it as it is now; RunError as for ``tick``."""
-        with writing(self._folder):
+        with refused_as(RunError, self._folder, "make room"):
             self._checkpoint.save(self)
         self._saved_at = self.trainer.episodes_done.copy()
 
@@ -148,7 +150,7 @@ class JobTraining:
 
         RunError if the disk refuses.
         """
-        with writing(self._folder):
+        with refused_as(RunError, self._folder, "make room"):
             write_outcome(self._folder, self._outcome())
         shutil.rmtree(self._folder / "checkpoint", ignore_errors=True)
 

@@ -1,7 +1,5 @@
 """What came of a job: outcome.json in its folder."""
 
-from collections.abc import Iterator
-from contextlib import contextmanager
 from pathlib import Path
 
 from pydantic import BaseModel, ConfigDict
@@ -72,15 +70,6 @@ class JobOutcome(BaseModel):
         """Return one run's share of the seconds, by its updates."""
         updates = sum(each.updates for each in self.runs)
         return self.seconds * run.updates / updates if updates else 0.0
-
-
-@contextmanager
-def writing(folder: Path) -> Iterator[None]:
-    """Raise RunError, one line, if the disk refuses what the block writes in a job's folder."""
-    try:
-        yield
-    except OSError as error:
-        raise RunError(f"{folder}: can't be written ({error}): make room") from error
 
 
 def write_outcome(folder: Path, outcome: JobOutcome) -> None:

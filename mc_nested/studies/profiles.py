@@ -16,7 +16,7 @@ import numpy as np
 from mc_nested.arena.design import kind_of_design
 from mc_nested.arrays import Float64s, Int64s
 from mc_nested.studies.inference import Interval, percentiles
-from mc_nested.studies.table import episodes
+from mc_nested.studies.table import Cells, episodes
 from mc_nested.studies.trial import Trial, without_a_prior
 
 RESAMPLES = 2000
@@ -54,17 +54,17 @@ class Measures:
     worst: float
     without_a_prior: float
 
-    def in_words(self) -> tuple[str, ...]:
-        """Return table cells: solved, median, interquartile mean, worst, without a prior, within twice that."""
+    def in_words(self) -> Cells:
+        """Return the cells of a table."""
         ends = self.interval if self.interval and np.isfinite(self.interval.low) else None
         interval = f" ({episodes(ends.low)} to {episodes(ends.high)})" if ends else ""
         return (
-            f"{self.solved} of {self.trials}",
-            episodes(self.median),
-            f"{episodes(self.mean)}{interval}",
-            episodes(self.worst),
-            episodes(self.without_a_prior),
-            f"{100 * self.within_twice:.3g} %",
+            ("solved", f"{self.solved} of {self.trials}"),
+            ("median", episodes(self.median)),
+            ("interquartile mean (95 %)", f"{episodes(self.mean)}{interval}"),
+            ("worst", episodes(self.worst)),
+            ("without a prior", episodes(self.without_a_prior)),
+            ("within twice that", f"{100 * self.within_twice:.3g} %"),
         )
 
 

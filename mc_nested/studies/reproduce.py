@@ -19,7 +19,7 @@ from mc_nested.studies.inference import coverage, share_interval
 from mc_nested.studies.measures import Curve, early_limit
 from mc_nested.studies.results import Cost, Results, results_of
 from mc_nested.studies.study import Report, Study, StudyOptions, with_episodes
-from mc_nested.studies.table import NONE, Table, interval, interval_of_mean, markdown, mean, number_of_trials
+from mc_nested.studies.table import NONE, Table, interval, interval_of_mean, markdown_of, mean, number_of_trials
 from mc_nested.studies.trial import Trial, greedy_table
 from mc_nested.studies.verdicts import JudgedClaim
 
@@ -115,19 +115,6 @@ The bands are 95 % intervals of the mean. There is none where half of the trials
 experiments drawn from each point's own trials, such an interval held the mean in {middle:.0f} % (median of all points;
 {lowest:.0f} % at least)."""
 
-SCORES = (
-    "scenario",
-    "agent",
-    "final score",
-    "95 % interval",
-    "last ten",
-    "95 % interval",
-    "at the optimum",
-    "95 % interval",
-    "early",
-    "spread",
-)
-
 
 def _what_was_run(results: Results, longer: Results | None) -> str:
     trials = number_of_trials(results.trials)
@@ -145,18 +132,18 @@ def _scores(results: Results) -> str:
             curve, optimum = results.curves[agent, scenario], results.optimum[scenario]
             rows.append(
                 (
-                    scenario,
-                    agent,
-                    f"**{mean(curve.final)}** of {optimum:g}",
-                    interval_of_mean(curve.final, optimum),
-                    mean(curve.last_ten),
-                    interval_of_mean(curve.last_ten, optimum),
-                    *_solved(curve, optimum),
-                    mean(curve.early),
-                    mean(curve.spread),
+                    ("scenario", scenario),
+                    ("agent", agent),
+                    ("final score", f"**{mean(curve.final)}** of {optimum:g}"),
+                    ("95 % interval", interval_of_mean(curve.final, optimum)),
+                    ("last ten", mean(curve.last_ten)),
+                    ("95 % interval", interval_of_mean(curve.last_ten, optimum)),
+                    *zip(("at the optimum", "95 % interval"), _solved(curve, optimum), strict=True),
+                    ("early", mean(curve.early)),
+                    ("spread", mean(curve.spread)),
                 )
             )
-    return f"{markdown(SCORES, rows)}\n\n{EXPLAINED.format(early=early_limit(results.episodes))}"
+    return f"{markdown_of(rows)}\n\n{EXPLAINED.format(early=early_limit(results.episodes))}"
 
 
 def _bands(results: Results) -> list[str]:
@@ -180,35 +167,32 @@ def _costs(results: Results) -> str:
     costs = {key: results.costs[key] for key in keys if key in results.costs}
     rows = [
         (
-            scenario,
-            agent,
-            *(_ratio(cost, costs.get((NESTED, scenario)), of) for of in COUNTS),
-            mean(np.array(cost.replay_bytes) / MEGA),
+            ("scenario", scenario),
+            ("agent", agent),
+            *((name, _ratio(cost, costs.get((NESTED, scenario)), of)) for of, name in COUNTS.items()),
+            ("replays, MB a trial", mean(np.array(cost.replay_bytes) / MEGA)),
         )
         for (agent, scenario), cost in costs.items()
     ]
-    header = (
-        "scenario",
-        "agent",
-        "networks",
-        "parameters",
-        "updates, all trials",
-        "steps, all trials",
-        "replays, MB a trial",
-    )
     spent: dict[str, float] = {}
     for (agent, _), cost in costs.items():
         spent[agent] = spent.get(agent, 0.0) + cost.seconds
     seconds = ", ".join(f"{agent} {own:.1f}" for agent, own in spent.items())
     return (
-        f"{markdown(header, rows)}\n\nIn brackets: times the nested agent's. Networks and parameters are one trial's, "
+        f"{markdown_of(rows)}\n\nIn brackets: times the nested agent's. Networks and parameters are one trial's, "
         f"target networks not counted.\n\nSeconds of training, which another run won't repeat: {seconds}. They count "
         "what is compiled first, and batches are of unequal size: so they aren't judged. `python scripts/bench.py "
         "costs` trains the agents by turns, and judges claims (i): nested takes fewer seconds than the others."
     )
 
 
-COUNTS = ("networks", "parameters", "updates", "env_steps")
+COUNTS = {
+    "networks": "networks",
+    "parameters": "parameters",
+    "updates": "updates, all trials",
+    "env_steps": "steps, all trials",
+}
+"""What is counted of a Cost, and its heading."""
 
 
 def _ratio(cost: Cost, reference: Cost | None, of: str) -> str:

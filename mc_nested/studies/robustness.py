@@ -18,7 +18,7 @@ from mc_nested.studies.config import StudyConfig
 from mc_nested.studies.inference import ALPHA
 from mc_nested.studies.results import Results, results_of
 from mc_nested.studies.study import Report, Study, StudyOptions
-from mc_nested.studies.table import Table, markdown, mean, number_of_trials
+from mc_nested.studies.table import Table, markdown, mean, number_of_trials, table_of
 from mc_nested.studies.trial import Trial
 from mc_nested.studies.verdicts import JudgedClaim, Verdict
 
@@ -124,18 +124,6 @@ def report_on(choices: Sequence[JudgedChoice]) -> Report:
 
 def _findings(choices: Sequence[JudgedChoice]) -> Table:
     """Return the table of every line of every claim under every choice."""
-    header = (
-        "choice",
-        "value",
-        "claim",
-        "line",
-        "measured",
-        "p",
-        "p_opposite",
-        "p_opposite_holm",
-        "p_small",
-        "verdict",
-    )
     rows = []
     for each in choices:
         for judged in each.claims:
@@ -143,9 +131,10 @@ def _findings(choices: Sequence[JudgedChoice]) -> Table:
                 evidence, tails = finding.evidence, finding.evidence.tails
                 measured = evidence.figures[-1][1] if evidence.figures else ""
                 own = (tails.claim, tails.against, finding.against, finding.small) if tails else ("",) * 4
-                line = (evidence.what, measured, *own, finding.verdict.value)
-                rows.append((each.choice, each.value, judged.claim.letter, *line))
-    return Table(header, rows)
+                of = {"choice": each.choice, "value": each.value, "claim": judged.claim.letter, "line": evidence.what}
+                p_values = dict(zip(("p", "p_opposite", "p_opposite_holm", "p_small"), own, strict=True))
+                rows.append({**of, "measured": measured, **p_values, "verdict": finding.verdict.value})
+    return table_of(rows)
 
 
 def _shown(choices: Sequence[JudgedChoice]) -> Table:

@@ -18,6 +18,7 @@ from mc_nested.arena.env import highest_observation
 from mc_nested.arena.scenario import Scenario
 from mc_nested.arena.single import SingleAgentVectorEnv
 from mc_nested.arrays import Int64s
+from mc_nested.atomic_file import refused_as
 from mc_nested.errors import PresetError, RunError
 from mc_nested.learn.episode_log import EvaluationRow
 from mc_nested.learn.exploration.schedules import epsilon_after
@@ -25,7 +26,7 @@ from mc_nested.learn.preset import Preset
 from mc_nested.learn.runs.checkpoint import fingerprint
 from mc_nested.studies.arm import LIBRARY
 from mc_nested.studies.job import Job
-from mc_nested.studies.outcome import JobOutcome, RunOutcome, evaluated, write_outcome, writing
+from mc_nested.studies.outcome import JobOutcome, RunOutcome, evaluated, write_outcome
 
 HOW_TO_INSTALL = "pip install -c constraints.txt -e '.[bench]'"
 
@@ -213,7 +214,7 @@ class Sb3Training:
                 )
             ],
         )
-        with writing(self._folder):
+        with refused_as(RunError, self._folder, "make room"):
             write_outcome(self._folder, outcome)
 
     def _evaluate(self) -> None:

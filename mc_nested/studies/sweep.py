@@ -16,7 +16,7 @@ from mc_nested.studies.change import Change, shipped_changes
 from mc_nested.studies.config import StudyConfig
 from mc_nested.studies.inference import Interval, mean_interval
 from mc_nested.studies.study import Report, Study, StudyOptions
-from mc_nested.studies.table import markdown, number_of_trials
+from mc_nested.studies.table import Cells, markdown_of, number_of_trials
 from mc_nested.studies.trial import Trial, on_each, optimum_of, trial_table
 
 COLUMNS = (
@@ -95,21 +95,6 @@ def effects_on(trials: Sequence[Trial], scenario: str) -> list[Effect]:
     return effects
 
 
-HEADER = (
-    "agent",
-    "choice",
-    "value",
-    "final score",
-    "against the base",
-    "95 % interval",
-    "mean over the training",
-    "against the base",
-    "95 % interval",
-    "best",
-    "at the optimum",
-    "episodes to it",
-)
-
 LEGEND = """\
 Final: the greedy score of the policy that a run keeps. Mean over the training: over all of a run's greedy evaluations,
 so it is high where learning is early and steady. Both are means over the trials. Intervals are Student's t of
@@ -127,7 +112,7 @@ def report(config: StudyConfig, trials: Sequence[Trial]) -> Report:
     what = f"One choice at a time changed from the preset `{base.short_preset}`, seed {config.seed}"
     each = f"{number_of_trials(config.trials)} of {base.preset.episodes:,} episodes for each variant and scenario"
     tables = [
-        f"## {scenario}, optimum {optimum[scenario]:g}\n\n{markdown(HEADER, [_line(effect) for effect in own])}"
+        f"## {scenario}, optimum {optimum[scenario]:g}\n\n{markdown_of([_line(effect) for effect in own])}"
         for scenario, own in effects.items()
     ]
     return Report(
@@ -143,22 +128,22 @@ def report(config: StudyConfig, trials: Sequence[Trial]) -> Report:
     )
 
 
-def _line(effect: Effect) -> Sequence[str]:
+def _line(effect: Effect) -> Cells:
     is_base = not effect.choice
     reached = [trial.episodes_to_optimum for trial in effect.trials if trial.episodes_to_optimum is not None]
     return (
-        effect.arm.agent,
-        "**base**" if is_base else effect.choice,
-        effect.arm.labels["value"],
-        f"{effect.final:.2f}",
-        "" if is_base else _signed(effect.final_difference),
-        _interval(effect.final_interval),
-        f"{effect.mean:.2f}",
-        "" if is_base else _signed(effect.mean_difference),
-        _interval(effect.mean_interval),
-        f"{max(trial.best_score for trial in effect.trials):g}",
-        f"{len(reached)} of {len(effect.trials)}",
-        f"{median(reached):,.0f}" if reached else "",
+        ("agent", effect.arm.agent),
+        ("choice", "**base**" if is_base else effect.choice),
+        ("value", effect.arm.labels["value"]),
+        ("final score", f"{effect.final:.2f}"),
+        ("against the base", "" if is_base else _signed(effect.final_difference)),
+        ("95 % interval", _interval(effect.final_interval)),
+        ("mean over the training", f"{effect.mean:.2f}"),
+        ("against the base", "" if is_base else _signed(effect.mean_difference)),
+        ("95 % interval", _interval(effect.mean_interval)),
+        ("best", f"{max(trial.best_score for trial in effect.trials):g}"),
+        ("at the optimum", f"{len(reached)} of {len(effect.trials)}"),
+        ("episodes to it", f"{median(reached):,.0f}" if reached else ""),
     )
 
 

@@ -1,7 +1,7 @@
 """A table of a report: as CSV, as Markdown, and its cells in words."""
 
 import csv
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -30,11 +30,26 @@ class Table:
             writer.writerows(self.rows)
 
 
+def table_of(rows: Sequence[Mapping[str, Any]]) -> Table:
+    """Return the table of these rows, one at least, whose cells are by their columns' headings."""
+    return Table(list(rows[0]), [list(row.values()) for row in rows])
+
+
 def markdown(header: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
     """Return the table as Markdown; a cell can't break it."""
     lines = [header, ["---"] * len(header), *rows]
     # Users name scenarios, so bars may appear.
     return "\n".join(f"| {' | '.join(cell.replace('|', chr(92) + '|') for cell in line)} |" for line in lines)
+
+
+Cells = Sequence[tuple[str, str]]
+"""A row: each cell behind its column's heading."""
+
+
+def markdown_of(rows: Sequence[Cells]) -> str:
+    """Return as Markdown the table of these rows, which have the same headings; nothing where there is no row."""
+    cells = [[cell for _, cell in row] for row in rows]
+    return markdown([heading for heading, _ in rows[0]], cells) if rows else ""
 
 
 def two(value: float) -> str:

@@ -5,12 +5,12 @@ import time
 from collections.abc import Callable
 from pathlib import Path
 
-from mc_nested.errors import UserError
+from mc_nested.atomic_file import refused_as
+from mc_nested.errors import RunError, UserError
 from mc_nested.learn.runs.folder_lock import folder_lock
 from mc_nested.report.tensorboard import FOLDER, TensorBoard, is_installed
 from mc_nested.studies.job import Job
 from mc_nested.studies.job_training import JobTraining, TrainedJob, agents_trainer, team_of_job
-from mc_nested.studies.outcome import writing
 from mc_nested.workers.executor import JobEnded, JobReport
 from sim.grid import GridVectorEnv
 from sim.team_grid import team_arenas
@@ -62,7 +62,7 @@ def _events(training: TrainedJob, folder: Path) -> TensorBoard | None:
         re.sub(r"[^\w.-]+", "-", f"{group}-{scenario.name}-{trial}")
         for group, scenario, trial in zip(job.groups, job.scenarios, job.trials, strict=True)
     )
-    with writing(folder):
+    with refused_as(RunError, folder, "make room"):
         return TensorBoard([folder.parent.parent / FOLDER / name for name in names], training.trainer)
 
 
@@ -84,5 +84,5 @@ def _tick_until_done(training: TrainedJob, folder: Path, report: Report, report_
                 return
         training.tick()
         if events:
-            with writing(folder):
+            with refused_as(RunError, folder, "make room"):
                 events.write()

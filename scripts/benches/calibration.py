@@ -32,7 +32,7 @@ from calibration.registry import registered_steps
 from mc_nested.arena.scenario import Scenario
 from mc_nested.arena.scenario_file import load_scenario
 from mc_nested.errors import McNestedError, UserError
-from mc_nested.live.connection import GameConnection, connect
+from mc_nested.live.connection import GameConnection
 from mc_nested.live.devices import Devices
 from mc_nested.live.input.input_controller import InputController
 from mc_nested.live.live_game import LiveGame
@@ -174,7 +174,8 @@ def doctor_for(client: VirtualClient, folder: Path) -> Examine:
 
 def live_game(client: VirtualClient, profile: Profile, scenario: Scenario) -> LiveGame:
     """Return a live game on a client, from the profile alone."""
-    return LiveGame(scenario, profile, connect(profile, client.devices))
+    connection = GameConnection(client.devices, InputController(client.devices, profile.input))
+    return LiveGame(scenario, profile, connection.for_profile(profile))
 
 
 def write_font(folder: Path) -> Path:

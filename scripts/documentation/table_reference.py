@@ -59,10 +59,10 @@ def words_of(schema: Schema) -> str:
     """Say in words what a value may be: its kind and its limits."""
     if "anyOf" in schema:
         return " or ".join(words_of(kind) for kind in schema["anyOf"] if kind.get("type") != "null")
-    if "const" in schema:
-        return code(json.dumps(schema["const"]))
-    if "enum" in schema:
-        return ", ".join(code(json.dumps(value)) for value in schema["enum"])
+    if "$ref" in schema:
+        return f"a table of the keys of [{str(_model_of(schema)).lower()}]"
+    if "const" in schema or "enum" in schema:
+        return ", ".join(code(json.dumps(value)) for value in schema.get("enum", [schema.get("const")]))
     if schema["type"] == "array":
         return _list(schema)
     if schema["type"] == "object":

@@ -19,6 +19,5 @@ drawing/     from a view to pixels: only what changed, only what is grabbed
     f3_layers.py  gui_layers.py                     what lies over the world
     block_faces.py  world_shapes.py  world_layer.py the world behind
     letters.py                                      texts in any font, and a font drawn for this project
-    f3_cases.py                                     random debug screens, to test a reader on
 desktop/     clock.py  window.py (focus, latency, clipboard)  display.py  keyboard.py  pointer.py
 """

@@ -52,6 +52,6 @@ def test_a_random_design_of_the_wrong_kind_or_unbuildable_is_drawn_again(monkeyp
 @pytest.mark.parametrize("kind", KINDS)
 def test_random_designs_reach_every_buildable_row_and_column_of_a_larger_arena(kind: str) -> None:
     random = np.random.default_rng(0)
-    cells = {cell for _ in range(400) for cell in draw_design(kind, random, size=20)}
+    cells = {cell for _ in range(400) for cell in draw_design(kind, random, 20, FEW_BLOCKS)}
     assert {x for x, _ in cells} == set(range(20))
     assert {y for _, y in cells} == set(range(1, 20))

@@ -4,9 +4,11 @@ import socket
 from pathlib import Path
 
 import pytest
+import tomlkit
 
 from mc_nested.workers.cluster import connection
 from tests.cli.running import TRAIN, run
+from tests.learn.objectives.made_objectives import small
 
 
 @pytest.fixture(scope="session")
@@ -33,3 +35,12 @@ def optimal(tmp_path_factory: pytest.TempPathFactory) -> Path:
         run("train", "--preset", "model-based", "--stop-at-optimum", "--trials", "2", "--seed", "4", "--out", out) == 0
     )
     return out
+
+
+@pytest.fixture(scope="session")
+def with_objectives(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Return a training of the agent with objectives, which has learnt next to nothing."""
+    folder = tmp_path_factory.mktemp("runs")
+    (folder / "small.toml").write_text(tomlkit.dumps(small().model_dump(exclude_none=True)), "utf-8")
+    assert run("train", "--preset", folder / "small.toml", "--out", folder / "run") == 0
+    return folder / "run"

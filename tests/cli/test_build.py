@@ -46,10 +46,15 @@ def test_a_shipped_design_is_built_of_the_best_material_and_shown(capsys: pytest
     assert printed.err == ""
 
 
-@pytest.mark.parametrize("material", [None, "wood"])
+@pytest.mark.parametrize("words", [[], ["--agent"]])
+@pytest.mark.parametrize("material", [[], ["--material", "wood"]])
 @pytest.mark.parametrize("name", shipped_scenarios())
 def test_each_action_of_a_shipped_design_is_announced_with_its_material(
-    name: str, material: str | None, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+    name: str,
+    material: list[str],
+    words: list[str],
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
 ) -> None:
     games: list[TakesAtItsWord] = []
 
@@ -58,7 +63,7 @@ def test_each_action_of_a_shipped_design_is_announced_with_its_material(
         return games[-1]
 
     monkeypatch.setattr(sim.worlds, "GridGame", opened)
-    assert run("build", name, *(["--material", material] if material else [])) == 0
+    assert run("build", name, *material, *words) == 0
     (game,) = games
     assert f"in {game.acts} steps" in capsys.readouterr().out
     assert game.kept == game.acts - 1
@@ -213,8 +218,13 @@ def test_a_build_that_a_person_stops_does_not_start_over(
 
 @pytest.mark.usefixtures("profile")
 @pytest.mark.parametrize("mishaps_a_second", [None, 0.15])
+@pytest.mark.parametrize("agent", [[], ["--agent"]])
 def test_a_layer_is_built_block_for_block_on_the_virtual_client(
-    mishaps_a_second: float | None, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+    agent: list[str],
+    mishaps_a_second: float | None,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
 ) -> None:
     (tmp_path / "hut.schem").write_bytes(sponge(HUT))
     client = VirtualClient(seed=4)
@@ -227,7 +237,7 @@ def test_a_layer_is_built_block_for_block_on_the_virtual_client(
             yield game, client.display
 
     monkeypatch.setattr(sim.worlds, "open_live_game", opened)
-    words: list[str | Path] = ["--layer", "0", "--backend", "live", "--profile", "mine"]
+    words = ["--layer", "0", *agent, "--backend", "live", "--profile", "mine"]
     assert run("build", tmp_path / "hut.schem", *words) == 0
     printed = capsys.readouterr()
     assert "built 11 of 11 blocks, of stone" in printed.out

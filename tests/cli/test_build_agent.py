@@ -1,7 +1,7 @@
 """``mc-nested build --agent``: what the shipped agent builds, what it can't reach, and where it fails."""
 
 import json
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Collection, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
@@ -11,26 +11,22 @@ import mc_nested.cli.build
 import sim.worlds
 from mc_nested.arena.action import Action, Cell
 from mc_nested.arena.scenario import Scenario
-from mc_nested.arena.scenario_file import shipped_scenarios
 from mc_nested.errors import LiveError
+from mc_nested.learn.evaluation import BuildStep
 from mc_nested.learn.objectives import weights
-from mc_nested.learn.objectives.building import Step
 from mc_nested.learn.objectives.weights import save_weights, shipped_weights
 from mc_nested.live.devices import Display
 from mc_nested.live.live_game import LiveGame
 from mc_nested.live.profile.arena import Arena
 from mc_nested.live.profile.store import save_profile
 from mc_nested.live.profile.tables import Profile
-from mc_nested.report import terminal
-from mc_nested.report.filmed_game import FilmedGame
-from mc_nested.view.board import Board
 from sim.client.client import VirtualClient
-from tests.arena.made_games import TakesAtItsWord
 from tests.cli.fragile_game import open_live
 from tests.cli.running import run
+from tests.cli.shown import objectives_shown
 from tests.design_files.written import HUT, picture, sponge
 from tests.report.films import pictures_of
-from tests.sim.client.playing import arena_of, play
+from tests.sim.client.playing import arena_of, connection_to
 
 LOW = """
 name = "low"
@@ -70,8 +66,8 @@ def profile(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
 
 def acts(monkeypatch: pytest.MonkeyPatch, *actions: Action) -> None:
     """Have the agent take these actions, and no others."""
-    steps = [Step((action, 1), None, (7, 3)) for action in actions]
-    monkeypatch.setattr(mc_nested.cli.build, "steps_of", lambda *_: iter(steps))
+    steps = [BuildStep((action, 1), None, (7, 3)) for action in actions]
+    monkeypatch.setattr(mc_nested.cli.build, "_by_the_agent", lambda *_: lambda _: iter(steps))
 
 
 @pytest.mark.parametrize(("name", "score"), [("house", 50.0), ("flag", 36.0)])
@@ -90,25 +86,6 @@ def test_it_builds_otherwise_than_the_scripted_builder(capsys: pytest.CaptureFix
         assert run("build", "house", "--json", *words) == 0
         steps.append(json.loads(capsys.readouterr().out)["steps"])
     assert steps[0] > steps[1]
-
-
-@pytest.mark.parametrize("material", [None, "wood"])
-@pytest.mark.parametrize("name", shipped_scenarios())
-def test_each_action_is_announced_with_its_material(
-    name: str, material: str | None, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
-    games: list[TakesAtItsWord] = []
-
-    def opened(scenario: Scenario) -> TakesAtItsWord:
-        games.append(TakesAtItsWord(scenario))
-        return games[-1]
-
-    monkeypatch.setattr(sim.worlds, "GridGame", opened)
-    assert run("build", name, "--agent", *(["--material", material] if material else [])) == 0
-    (game,) = games
-    assert f"in {game.acts} steps" in capsys.readouterr().out
-    assert game.kept == game.acts - 1
-    assert game.following is None
 
 
 @pytest.mark.parametrize(
@@ -235,33 +212,14 @@ def test_an_agent_that_fails_says_why_after_its_result_and_keeps_the_film(
 def test_the_arena_the_view_and_the_film_show_what_the_agent_is_after(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    drawn: list[Cell | None] = []
-    published: list[Cell | None] = []
-    filmed: list[Cell | None] = []
-    view, show, act = terminal.arena_view, Board.show, FilmedGame.act
-
-    def arena_view(scenario: Scenario, agent: Cell, placed: frozenset[Cell], objective: Cell | None) -> object:
-        drawn.append(objective)
-        return view(scenario, agent, placed, objective)
-
-    def board_show(board: Board, **fields: object) -> None:
-        published.append(fields["arena"].objective)  # type: ignore[attr-defined]  # an ArenaSeen
-        show(board, **fields)
-
-    def filmed_act(game: FilmedGame, *asked: object) -> object:
-        filmed.append(game.objective)
-        return act(game, *asked)  # type: ignore[arg-type]  # what it is asked for
-
-    monkeypatch.setattr("mc_nested.cli.watching.arena_view", arena_view)
-    monkeypatch.setattr(Board, "show", board_show)
-    monkeypatch.setattr(FilmedGame, "act", filmed_act)
+    shown = objectives_shown(monkeypatch)
     acts(monkeypatch, Action.B, Action.BD)
     assert run("build", "line", "--agent", "--video", tmp_path / "film.gif") == 2
-    assert drawn == published == [(7, 3), (7, 3), None]
-    assert filmed == [(7, 3), (7, 3)]
-    drawn.clear()
+    assert shown.drawn == shown.published == [(7, 3), (7, 3), None]
+    assert shown.filmed == [(7, 3), (7, 3)]
+    shown.drawn.clear()
     assert run("build", "line") == 0
-    assert set(drawn) == {None}
+    assert set(shown.drawn) == {None}
     assert "@" not in capsys.readouterr().out
 
 
@@ -272,25 +230,40 @@ def test_the_agent_builds_on_the_virtual_client(capsys: pytest.CaptureFixture[st
     assert "s an action (median); walking " in said[1]
 
 
-@pytest.mark.usefixtures("profile")
-@pytest.mark.parametrize("mishaps_a_second", [None, 0.15])
-def test_it_builds_block_for_block_in_a_game_where_actions_go_wrong(
-    mishaps_a_second: float | None, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
-    (tmp_path / "hut.schem").write_bytes(sponge(HUT))
+@contextmanager
+def left_standing(scenario: Scenario, cells: Collection[Cell]) -> Iterator[tuple[LiveGame, Display]]:
+    """Open a game where a block hangs over each of these cells, at the head: too high for what a reset clears."""
     client = VirtualClient(seed=4)
-    if mishaps_a_second:
-        client.mishaps.every(mishaps_a_second)
+    arena = Arena.around(arena_of(client).origin, "south", height=1)
+    for x, y, z in map(arena.block_of, cells):
+        client.realm.world.put((x, y + 1, z), "stone")
+    with LiveGame(scenario, Profile(arena=arena), connection_to(client)) as game:
+        yield game, client.display
+    assert client.window.down == set()
 
-    @contextmanager
-    def opened(scenario: Scenario, *_: object, **__: object) -> Iterator[tuple[LiveGame, Display]]:
-        with play(client, scenario) as game:
-            yield game, client.display
 
-    monkeypatch.setattr(sim.worlds, "open_live_game", opened)
-    words = ["--layer", "0", "--agent", "--backend", "live", "--profile", "mine"]
-    assert run("build", tmp_path / "hut.schem", *words) == 0
-    assert "built 11 of 11 blocks, of stone" in capsys.readouterr().out
-    assert bool(client.mishaps.happened) is bool(mishaps_a_second)
-    rows = {8: (5, 6, 7, 8), 7: (5, 7, 8), 6: (5, 6, 7, 8)}
-    assert client.placed(arena_of(client)) == {(x, y) for y, across in rows.items() for x in across}
+@pytest.mark.usefixtures("profile")
+@pytest.mark.parametrize(
+    ("cells", "reached"),
+    [([(7, 12)], (7, 12)), ([(7, 13), (6, 14), (8, 14)], (7, 13))],
+    ids=["an obstacle", "a start that is walled in"],
+)
+def test_an_obstacle_in_a_game_that_a_reset_cannot_clear_is_an_error_and_what_was_filmed_is_kept(
+    cells: list[Cell],
+    reached: Cell,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    monkeypatch.setattr(sim.worlds, "open_live_game", lambda scenario, _: left_standing(scenario, cells))
+    acts(monkeypatch, Action.BD, Action.B)
+    film = tmp_path / "film.gif"
+    words: list[str | Path] = ["build", "line", "--agent", "--backend", "live", "--profile", "mine", "--video", film]
+    assert run(*words) == 2
+    said = capsys.readouterr().err.splitlines()
+    why = f"cell {reached} was not reached in 8 tries, the agent is at "
+    assert [line.startswith(f"  {why}") for line in said].count(True) == 2  # it starts over twice
+    assert said[-2] == f"  film of what was played: {film}"
+    assert said[-1].startswith(f"mc-nested: {why}")
+    assert "is something in the way" in said[-1]
+    assert pictures_of(film)

@@ -12,11 +12,16 @@ from tests.cli.running import run
 from tests.learn.runs.changed_arrays import change_arrays
 
 
-def test_evaluate_prints_the_scores_of_the_summary(trained: Path, capsys: pytest.CaptureFixture[str]) -> None:
+@pytest.mark.parametrize("name", ["trained", "with_objectives"])
+def test_evaluate_prints_the_scores_of_the_summary(
+    name: str, request: pytest.FixtureRequest, capsys: pytest.CaptureFixture[str]
+) -> None:
     """test_without_torch.py does the same in a separate process."""
-    assert run("runs", "evaluate", trained, "--json") == 0
+    folder: Path = request.getfixturevalue(name)
+    capsys.readouterr()
+    assert run("runs", "evaluate", folder, "--json") == 0
     found = json.loads(capsys.readouterr().out)
-    assert found["scores"] == json.loads((trained / "summary.json").read_text())["final_scores"]
+    assert found["scores"] == json.loads((folder / "summary.json").read_text())["final_scores"]
     assert found["optimum"] == 21.0
 
 

@@ -1,13 +1,19 @@
 """``mc-nested play``: an episode that is watched, in the simulator and in a live game that fails."""
 
 import json
+import shutil
 from pathlib import Path
 
 import pytest
 
+import sim.worlds
+from mc_nested.arena.scenario import Scenario
+from mc_nested.arena.scenario_file import load_scenario
 from mc_nested.errors import LiveError, NotInFrontError, StoppedError
+from tests.arena.made_games import TakesAtItsWord
 from tests.cli.fragile_game import open_live
 from tests.cli.running import run
+from tests.cli.shown import objectives_shown
 
 
 def test_play_shows_the_arena_and_the_score(trained: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -76,3 +82,36 @@ def test_screenshots_in_the_simulator_are_refused(tmp_path: Path, capsys: pytest
     assert run("train", "--episodes", "1", "--out", tmp_path / "run") == 0
     assert run("play", tmp_path / "run", "--screenshots") == 2
     assert "leave out --screenshots" in capsys.readouterr().err
+
+
+def test_an_agent_with_objectives_shows_what_it_is_after_in_a_game(
+    with_objectives: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    shutil.copytree(with_objectives, tmp_path / "run")
+    open_live(monkeypatch, float("inf"))
+    capsys.readouterr()
+    shown = objectives_shown(monkeypatch)
+    words = ["--backend", "live", "--profile", "mine", "--screenshots", "--json", "--video"]
+    assert run("play", tmp_path / "run", *words, tmp_path / "film.gif") == 0
+    found = json.loads(capsys.readouterr().out)
+    assert len(shown.filmed) == found["steps"] == len(list((tmp_path / "run" / "screenshots").iterdir()))
+    assert set(shown.filmed) <= load_scenario("line").design
+    assert shown.drawn == shown.published == [*shown.filmed, None]
+
+
+def test_an_agent_with_objectives_announces_each_action(
+    with_objectives: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    games: list[TakesAtItsWord] = []
+
+    def opened(scenario: Scenario) -> TakesAtItsWord:
+        games.append(TakesAtItsWord(scenario))
+        return games[-1]
+
+    monkeypatch.setattr(sim.worlds, "GridGame", opened)
+    capsys.readouterr()
+    assert run("play", with_objectives, "--json") == 0
+    (game,) = games
+    assert game.acts == json.loads(capsys.readouterr().out)["steps"]
+    assert game.kept == game.acts - 1
+    assert game.following is None

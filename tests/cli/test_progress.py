@@ -145,8 +145,8 @@ def test_map_is_drawn_again_at_the_end() -> None:
         progress.show()
         for _ in range(SMALL.step_limit):
             training.tick()
-        assert training.imagination
-        progress._looked_at, progress._look_again = training.imagination.episodes(0), float("inf")
+        assert training.practice.imagination
+        progress._looked_at, progress._look_again = training.practice.imagination.episodes(0), float("inf")
         shown = progress._bar.map
     assert progress._bar.map is not shown
 

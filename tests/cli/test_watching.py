@@ -23,6 +23,7 @@ from tests.cli.fragile_game import open_live
 from tests.cli.running import run
 from tests.live.virtual_session import opening_on, profile_in
 from tests.report.films import pictures_of
+from tests.sim.client.playing import FONT
 
 LINE = load_scenario("line")
 
@@ -117,7 +118,7 @@ def test_a_films_window_shows_the_game_but_never_the_chat(tmp_path: Path, capsys
     for blanked in (chat, typed):
         assert (np.abs(blanked.astype(int) - BLANK) <= 8).all()
     assert np.ptp(window[: round(SMALL_ARENA_PX * 240 / 480)]) > 100
-    assert replay(tmp_path / "recording").differences == []
+    assert replay(tmp_path / "recording", FONT).differences == []
     assert capsys.readouterr().err == ""
 
 

@@ -60,6 +60,9 @@ BY_THE_SUITE = {
         ),
         "tests/cli/test_games_training.py",
     ),
+    "mc-nested train --preset without-hindsight.toml": "tests/learn/test_objective_training.py",
+    "python scripts/bench.py any-design --main": "tests/scripts/benches/test_any_design.py",
+    "python scripts/bench.py any-design --run": "tests/scripts/benches/test_any_design.py",
     "python scripts/test.py": "it runs this test",
     "mc-nested train --preset model-based --scenario square": "tests/cli/test_train_large_designs.py",
 }

@@ -87,9 +87,9 @@ def test_one_runs_networks_can_be_loaded_into_an_agent_of_one_or_several_runs() 
 def test_last_figures_are_nan_before_an_update_and_then_means_over_a_runs_learners() -> None:
     agent = Agent(HIERARCHICAL, [DOT, DOT], PRESET, 0)
     assert all(np.isnan(values).all() for values in agent.last_figures().values())
-    compiled_engine(agent.low_level.engine)._last.values[1] = 3.0
+    compiled_engine(agent.low_level.engine).last.values[1] = 3.0
     assert agent.last_figures()["q/low"].tolist() == pytest.approx([3.0, np.nan], nan_ok=True)
-    compiled_engine(agent.low_level.engine)._last.values[0] = 5.0
+    compiled_engine(agent.low_level.engine).last.values[0] = 5.0
     assert agent.last_figures()["q/low"].tolist() == pytest.approx([4.0, np.nan], nan_ok=True)
 
 

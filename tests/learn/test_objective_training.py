@@ -1,22 +1,29 @@
 """Trainings with objectives: their phases, their lessons by hand, resumed to the bit."""
 
+from typing import get_args
+
 import numpy as np
 import pytest
 
 from mc_nested.arena.action import Action
+from mc_nested.arena.env import ArenaEnv
 from mc_nested.arena.scenario_file import load_scenario
+from mc_nested.arrays import Bools
 from mc_nested.errors import PresetError
 from mc_nested.learn.agents import AGENT_SPECS, Agent
-from mc_nested.learn.dqn.states import AGENT, OCCUPIED, WANTED
-from mc_nested.learn.evaluation import play_greedily
-from mc_nested.learn.objective_lessons import rate_after
+from mc_nested.learn.dqn.states import AGENT, OCCUPIED, WANTED, Sees
+from mc_nested.learn.evaluation import build_greedily
+from mc_nested.learn.objective_lessons import MainLessons, rate_after
 from mc_nested.learn.objective_training import ObjectivesTraining
+from mc_nested.learn.objectives.decide import ObjectiveAgent, built_by_the_rules
+from mc_nested.learn.objectives.networks import Reaching, ReachNetwork
 from mc_nested.learn.preset import load_preset
-from sim.grid import GridVectorEnv
+from sim.grid import GridGame
 from tests.learn.made_trainings import assert_same, saved
-from tests.learn.objectives.made_objectives import small, training_of
+from tests.learn.objectives.made_objectives import both_by_chance, small, training_of
 
 LINE = load_scenario("line")
+SEES: tuple[Sees, ...] = get_args(Sees)
 
 
 def finished(training: ObjectivesTraining) -> ObjectivesTraining:
@@ -58,9 +65,22 @@ def test_a_training_resumes_to_the_bit_in_both_phases() -> None:
 
 def test_what_was_trained_plays_as_in_its_last_evaluation() -> None:
     training = finished(training_of(LINE, small()))
-    (played,) = play_greedily(GridVectorEnv([LINE]), [LINE], training.agent)
+    played = build_greedily(ArenaEnv(GridGame(LINE), LINE), training.agent)
     last = training.evaluation_rows[-1]
     assert (played.score, len(played.actions)) == (last.score, last.steps)
+
+
+@pytest.mark.parametrize("sees", SEES)
+def test_evaluations_and_greedy_play_show_the_nested_agent_as_much_as_its_lessons(sees: Sees) -> None:
+    networks = both_by_chance(3)  # these take another number of steps for each
+    update = small().update.model_copy(update={"learning_rate": 1e-30})
+    preset = small(nested_sees=sees, main_update=update)
+    training = training_of(LINE, preset.model_copy(update={"update": update}))
+    training.agent.load_online({role: network[None] for role, network in zip(("main", "low"), networks, strict=True)})
+    finished(training)
+    played = build_greedily(ArenaEnv(GridGame(LINE), LINE), training.agent)
+    _, steps = built_by_the_rules(ObjectiveAgent(*networks, LINE, sees), LINE)
+    assert training.evaluation_rows[-1].steps == len(played.actions) == steps
 
 
 def transitions(training: ObjectivesTraining, role: str) -> list[tuple[np.ndarray, np.ndarray, int, float, float]]:
@@ -99,18 +119,53 @@ def test_the_nested_agent_is_paid_for_a_block_on_its_objective_and_learns_from_w
     assert (share > 0.2) == hindsight  # half of all actions by chance place a block
 
 
+@pytest.mark.parametrize("sees", SEES)
+def test_the_nested_agent_learns_from_what_it_is_shown(sees: Sees) -> None:
+    training = training_of(LINE, small(nested_sees=sees))
+    for _ in range(10):
+        training.tick()
+    seen = np.array([state for before, after, *_ in transitions(training, "low") for state in (before, after)])
+    assert seen[:, OCCUPIED, 1:-1, 1:-1].any() == (sees != "objective")
+    assert set(seen[:, WANTED].sum((1, 2))) == {64 if sees == "surroundings" else 1}
+    assert (seen[:, AGENT].sum((1, 2)) == 1).all()
+
+
+class Watched(ReachNetwork):
+    """A nested agent's network that learnt nothing, and keeps what it was last shown."""
+
+    def __init__(self) -> None:
+        super().__init__(both_by_chance(1)[1])
+
+    def reaching(self, planes: Bools) -> Reaching:
+        self.shown = planes
+        return super().reaching(planes)
+
+
+@pytest.mark.parametrize("sees", SEES)
+def test_the_main_agent_learns_through_a_nested_agent_that_is_shown_as_much(sees: Sees) -> None:
+    preset, nested = small(nested_sees=sees), Watched()
+    agent = Agent(AGENT_SPECS["nested"], [LINE], preset, 0)
+    assert agent.main
+    assert preset.objectives
+    MainLessons(agent.main, preset.objectives).round(np.random.default_rng(1), nested, 1.0, 0.0)
+    assert nested.shown[:, OCCUPIED, 1:-1, 1:-1].any() == (sees != "objective"), "beside a small arena all is occupied"
+    assert set(nested.shown[:, WANTED].sum((1, 2))) == {64 if sees == "surroundings" else 1}
+
+
 def test_the_main_agent_is_paid_by_block_step_and_loss() -> None:
     training = finished(training_of(LINE, small()))
     for before, after, action, reward, discount in transitions(training, "main"):
         assert before[WANTED].reshape(-1)[int(action)]
         gone = int(before[WANTED].sum() - after[WANTED].sum())
         has_built = after[OCCUPIED].sum() > before[OCCUPIED].sum() and gone > 0
-        steps = (0.1 - reward) / 0.06
+        steps = (0.2 - reward) / 0.06
         if has_built and gone == 1 and reward > -0.9:
             assert steps == pytest.approx(round(steps), abs=1e-4)
-            assert steps >= 1
-        assert reward >= -4.0
-        assert discount in (0.0, pytest.approx(0.95))
+            assert round(steps) >= 1
+        if gone > 1:
+            assert reward <= 0.2 - 0.06 - 1.0 + 1e-4
+        assert reward >= -2.0
+        assert discount in (0.0, pytest.approx(0.99))
         assert (discount == 0.0) or after[WANTED].any()
 
 

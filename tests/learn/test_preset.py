@@ -123,6 +123,30 @@ def test_settings_that_do_not_fit_imagination_are_refused_in_one_line(change: tu
     check_refused(MODEL_BASED, change, says)
 
 
+ANY_DESIGN = (Path(__file__).parents[2] / "mc_nested/learn/presets/any-design.toml").read_text()
+
+
+@pytest.mark.parametrize(
+    ("keys", "says"),
+    [
+        ('nested_sees = "nothing"', "objectives.nested_sees"),
+        ('nested_sees = "surroundings"', '"surroundings" show none: add hindsight = false'),
+        ('hindsight = "off"', "objectives.hindsight"),
+    ],
+)
+def test_mistakes_in_what_the_nested_agent_sees_are_refused_in_one_line(keys: str, says: str) -> None:
+    check_refused(ANY_DESIGN, ("[objectives]", f"[objectives]\n{keys}"), says)
+
+
+def test_a_nested_agent_that_isnt_told_its_objective_learns_without_hindsight() -> None:
+    rule = parse_preset(
+        ANY_DESIGN.replace("[objectives]", '[objectives]\nnested_sees = "surroundings"\nhindsight = false', 1),
+        "mine.toml",
+    ).objectives
+    assert rule
+    assert (rule.nested_sees, rule.hindsight) == ("surroundings", False)
+
+
 @pytest.mark.parametrize("text", [PAPER, TUNED], ids=["paper", "tuned"])
 def test_the_cell_encoding_is_refused_without_imagination(text: str) -> None:
     other = re.sub(r'encoding = "[^"]*".*\n', "", text)

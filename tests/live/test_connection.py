@@ -6,7 +6,8 @@ import cv2
 import pytest
 
 from mc_nested.errors import DesktopError, FontError, ProfileError
-from mc_nested.live.connection import GameConnection, connect
+from mc_nested.live.connection import GameConnection
+from mc_nested.live.devices import Devices
 from mc_nested.live.input.input_controller import InputController
 from mc_nested.live.profile.tables import InputTable, Profile, ScreenTable
 from sim.client.client import VirtualClient
@@ -23,6 +24,10 @@ def font(tmp_path: Path) -> ScreenTable:
     path = tmp_path / "ascii.png"
     path.write_bytes(cv2.imencode(".png", drawn_atlas())[1].tobytes())
     return ScreenTable(font=str(path))
+
+
+def connect(profile: Profile, devices: Devices) -> GameConnection:
+    return GameConnection(devices, InputController(devices, profile.input)).for_profile(profile)
 
 
 def connection_without_font(game: FakeGame) -> GameConnection:
@@ -121,9 +126,10 @@ def test_a_shared_game_is_refused_unless_servers_are_allowed() -> None:
     titled("Minecraft 1.20.1 - Singleplayer", is_server_allowed=False).check_single_player()
 
 
-def test_connect_allows_no_server_by_default(font: ScreenTable) -> None:
+def test_a_connection_allows_no_server_by_default_also_for_a_profile(font: ScreenTable) -> None:
     devices = connection_of(FakeMenus(window_title=SERVER)).devices
     profile = Profile(screen=font)
     with pytest.raises(DesktopError, match="--server-allowed"):
         connect(profile, devices).check_single_player()
-    connect(profile, devices, is_server_allowed=True).check_single_player()
+    allowed = GameConnection(devices, InputController(devices, profile.input), is_server_allowed=True)
+    allowed.for_profile(profile).check_single_player()

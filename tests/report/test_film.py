@@ -163,7 +163,7 @@ def test_a_disk_that_fills_up_is_reported_and_leaves_the_earlier_film(
     with pytest.raises(FilmError) as caught, open_film(path) as film:
         film.show(RED, 0.0)
     assert str(caught.value) == (
-        f"{path}: the film can't be written (no space left on the disk): make room, or name another folder"
+        f"{path}: can't be written (no space left on the disk): make room, or name another folder"
     )
     assert path.read_bytes() == b"an earlier film"
     assert len(list(tmp_path.iterdir())) == 1

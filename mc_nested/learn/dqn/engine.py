@@ -44,6 +44,10 @@ class Batch(NamedTuple):
     weights: Float32s
 
 
+MLP, CNN, REACH, ORDER = "mlp", "cnn", "reach", "order"
+"""Networks that a preset names; the last two are those of the agents with objectives: the nested and the main one."""
+
+
 class NetworkForm(NamedTuple):
     """What a network is: its name in a preset, and its numbers. Networks of one form can be exchanged."""
 
@@ -60,6 +64,10 @@ class Engine(Protocol):
 
     rule: UpdateRule
     """What an update does; another learning rate may be given on the way."""
+
+    @property
+    def last(self) -> "LastBatches":
+        """What each row's last update found."""
 
     @property
     def form(self) -> NetworkForm:
@@ -85,15 +93,6 @@ class Engine(Protocol):
 
     def load_online(self, online: Float32s) -> None:
         """Continue with other networks (rows, parameters), the targets too; ValueError if their shape differs."""
-
-    def last_loss(self) -> Float32s:
-        """Return the mean Huber loss of each row's last update, (rows,); nan before the first."""
-
-    def last_q(self) -> Float32s:
-        """Return the mean value, Q(s, a), of the transitions of each row's last update, (rows,).
-
-        It is nan before the first.
-        """
 
     def state(self) -> Arrays:
         """Return what the next update depends on, by name, (rows, …) each."""

@@ -1,4 +1,4 @@
-"""The engine that a preset names, with its networks as they begin; and what goes together with it in a preset."""
+"""The engine that a preset names, with its networks as they begin."""
 
 from collections.abc import Sequence
 from typing import NamedTuple
@@ -56,29 +56,3 @@ NUMBERS, SCREEN, OBJECTIVES = "numbers", "screen", "objectives"
 
 Otherwise planes (arena/planes.py).
 """
-
-MLP, CNN, CPU = "mlp", "cnn", "cpu"
-
-REACH, ORDER = "reach", "order"
-"""The networks of the agents with objectives: the nested agent's, and the main agent's."""
-
-
-def misfit(choice: EngineChoice, states: str, *, explores_by_place: bool, imagines: bool, encoding: str) -> str | None:
-    """Return what in a preset doesn't go together with what computes it, one line; None if all does."""
-    engine, device, network, _ = choice
-    compiled, numbers = engine == COMPILED, states == NUMBERS
-    rules = {
-        f'states "{states}" need engine "torch": the compiled engine takes numbers alone': compiled and not numbers,
-        f'network "{network}" needs engine "torch": the compiled engine has "mlp" alone': compiled and network != MLP,
-        f'device "{device}" needs engine "torch": the compiled engine is for the processor': compiled and device != CPU,
-        'states "objectives" and network "reach" go together': (states == OBJECTIVES) != (network == REACH),
-        'network "cnn" needs states "image" or "screen": numbers have no neighbours': network == CNN and numbers,
-        '[imagination] needs engine "compiled" and states "numbers"': imagines and not (compiled and numbers),
-        f'[excursions] go by x and y: with states "{states}", write [explore_nested]': explores_by_place
-        and not numbers,
-        f'encoding "{encoding}" is for states "numbers": leave it out': encoding != "scaled" and not numbers,
-        f'network "{network}": write "mlp", "cnn", or a module and its function, "my_module:make"': (
-            network not in (MLP, CNN, REACH) and ":" not in network
-        ),
-    }
-    return next((says for says, is_broken in rules.items() if is_broken), None)

@@ -9,17 +9,27 @@ an input for each cell.
 import math
 from collections.abc import Sequence
 from functools import cached_property
-from typing import Any, NamedTuple, Protocol
+from typing import Any, Literal, NamedTuple, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
 from mc_nested.arrays import Float32s, Int64s, Integers
 
-WANTED, OCCUPIED, AGENT = range(3)
-"""What agents with objectives see: the objective, or all cells still to build; what stands; and where the agent is."""
+WANTED, OCCUPIED, AGENT, LOSES = range(4)
+"""What agents with objectives see: the objective, or all cells still to build; what stands; and where the agent is.
 
-OBJECTIVE_PLANES = 3
+The main agent also sees which cells to build would lose another one if a block stood there.
+"""
+
+REACH_PLANES, ORDER_PLANES = 3, 4
+"""The nested agent's planes, and the main agent's."""
+
+NONE, MANY = -1e6, 32.0
+"""To the main agent, the value of a cell that isn't to be built, and how many cells to build count as 1."""
+
+Sees = Literal["everything", "objective", "surroundings"]
+"""What the nested agent is shown of the objective and of what stands: both, or that one alone."""
 
 
 class States(Protocol):
@@ -46,38 +56,19 @@ class States(Protocol):
 
 
 class PlaneStates(NamedTuple):
-    """Planes of whole numbers from 0 to 255, kept as they are.
-
-    Args:
-        rows: how many rows there are.
-        actions: how many actions there are.
-        shape: (planes, height, width).
-    """
-
-    rows: int
-    actions: int
-    shape: tuple[int, ...]
-
-    @property
-    def highest(self) -> int:
-        return 255
-
-    def encoded(self, states: NDArray[Any]) -> NDArray[Any]:
-        return states
-
-
-class PackedPlanes(NamedTuple):
-    """Planes of bits, of which a byte keeps eight.
+    """Planes of whole numbers from 0 to 255, kept as they are; or of bits, of which a byte keeps eight.
 
     Args:
         rows: how many rows there are.
         actions: how many actions there are.
         planes: (planes, height, width).
+        are_bits: whether they are bits.
     """
 
     rows: int
     actions: int
     planes: tuple[int, ...]
+    are_bits: bool = False
 
     @property
     def highest(self) -> int:
@@ -85,9 +76,11 @@ class PackedPlanes(NamedTuple):
 
     @property
     def shape(self) -> tuple[int, ...]:
-        return (-(-math.prod(self.planes) // 8),)
+        return (-(-math.prod(self.planes) // 8),) if self.are_bits else self.planes
 
     def encoded(self, states: NDArray[Any]) -> NDArray[Any]:
+        if not self.are_bits:
+            return states
         return np.packbits(states.reshape(*states.shape[: -len(self.planes)], -1), axis=-1)
 
 

@@ -19,7 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mc_nested.arena.scenario import Scenario
-from mc_nested.arrays import Arrays, Int64s
+from mc_nested.arrays import Arrays, Int64s, copied
 from mc_nested.errors import PresetError
 from mc_nested.learn.agents import Agent
 from mc_nested.learn.choices import ChoiceStep
@@ -104,7 +104,7 @@ class GamesTrainer(Training):
             numbers=random.random((self._step_limit if nested else 0, CHOICE_NUMBERS)),
             first_tries=None if greedy else self.practice.first_tries(0, len(self._out)),
         )
-        online = {role: networks.copy() for role, networks in self.agent.online().items()} if greedy else {}
+        online = copied(self.agent.online()) if greedy else {}
         probes = self.practice.probes(0, material)
         self._out.add(EpisodeOut(plan, game, int(self.episodes_done[0]), (main, nested), probes, online))
         self._planned += 1

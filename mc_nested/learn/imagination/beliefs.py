@@ -45,32 +45,16 @@ class Beliefs:
     most: float
 
 
-def believe(
-    steps: Int64s,
-    lands: Cell,
-    size: int,
-    blocks: int,
-    optimism: bool = True,
-    neighbours: bool = True,
-    elsewhere: Collection[Cell] = (),
-    walls: Bools | None = None,
-) -> Beliefs:
-    """Return what transitions (steps, 9) (experience.py) say of every cell, if blocks land at ``lands`` from the agent.
+def evidence_of(steps: Int64s, lands: Cell, size: int) -> Float64s:
+    """Return how much says of each cell that it doesn't pay, and that it does, (2, size, size); 0 before any try.
 
-    Without ``optimism`` what is unknown isn't taken to pay; without ``neighbours`` all that is unknown is alike.
-    Cells that are probed ``elsewhere``, in other games, are taken to pay nothing, unless no other unknown cell is left.
-    ``walls`` (size, size) pay nothing.
+    ``steps`` are transitions (steps, 9) (experience.py); blocks land at ``lands`` from the agent.
     """
-    evidence = no_evidence(size)
+    evidence = np.zeros((2, size, size))
     told = (steps[:, 2] > steps[:, 6]) & (steps[:, 7] != UNTOLD)
     for x, y, paid in steps[told][:, [4, 5, 7]].tolist():
         count_try(evidence, (x + lands[0], y + lands[1]), paid)
-    return beliefs_of(evidence, lands, blocks, optimism, neighbours, elsewhere, walls)
-
-
-def no_evidence(size: int) -> Float64s:
-    """Return the evidence before any try: how much says of each cell that it doesn't pay, and that it does."""
-    return np.zeros((2, size, size))
+    return evidence
 
 
 def count_try(evidence: Float64s, cell: Cell, paid: int) -> None:
@@ -81,7 +65,7 @@ def count_try(evidence: Float64s, cell: Cell, paid: int) -> None:
         evidence[paid, cell[0], cell[1]] += 1.0
 
 
-def beliefs_of(
+def believe(
     evidence: Float64s,
     lands: Cell,
     blocks: int,
@@ -90,7 +74,12 @@ def beliefs_of(
     elsewhere: Collection[Cell] = (),
     walls: Bools | None = None,
 ) -> Beliefs:
-    """Return what evidence (2, size, size) says of every cell; the rest as for ``believe``."""
+    """Return what evidence (2, size, size) says of every cell, if blocks land at ``lands`` from the agent.
+
+    Without ``optimism`` what is unknown isn't taken to pay; without ``neighbours`` all that is unknown is alike.
+    Cells that are probed ``elsewhere``, in other games, are taken to pay nothing, unless no other unknown cell is left.
+    ``walls`` (size, size) pay nothing.
+    """
     size = evidence.shape[1]
     tried = evidence.any(axis=0)
     free = np.ones((size, size), dtype=np.bool_) if walls is None else ~walls

@@ -17,7 +17,7 @@ from mc_nested.arena.action import Cell
 from mc_nested.arrays import Arrays, Bools, Float64s, Int64s, named_for, part_of
 from mc_nested.learn.dqn.states import numbered
 from mc_nested.learn.imagination.arena_step import expected_landings, imagined_arena
-from mc_nested.learn.imagination.beliefs import Belief, Beliefs, believe
+from mc_nested.learn.imagination.beliefs import Belief, Beliefs, believe, evidence_of
 from mc_nested.learn.imagination.experience import Experience, RealStep
 from mc_nested.learn.imagination.first_tries import FirstTries
 from mc_nested.learn.imagination.known_arena import KnownArena, known_arena
@@ -48,7 +48,7 @@ def learnt_game(state: Mapping[str, NDArray[Any]], run: int) -> Arrays:
     return {**own, **named_for("seen", part_of(state, str(run)))}
 
 
-class Surroundings(NamedTuple):
+class GivenFacts(NamedTuple):
     """What a run knows of its game from the beginning: (x, y, b) after a reset, cells a side, steps, materials."""
 
     start: tuple[int, int, int]
@@ -63,7 +63,7 @@ class Imagination:
     Args:
         main: the main agent's learner, a row a run.
         low_level: the nested agent's learner, a row a run; or the low-level agents', a row a run and material.
-        surroundings: of each run.
+        given: of each run.
         preset: the hyper-parameters.
         rule: its table [imagination].
         seed: of all random choices.
@@ -74,14 +74,14 @@ class Imagination:
         self,
         main: Learner,
         low_level: Learner,
-        surroundings: Sequence[Surroundings],
+        given: Sequence[GivenFacts],
         preset: Preset,
         rule: ImaginationRule,
         seed: int,
         runs: Sequence[int],
     ) -> None:
         self._main, self._low_level, self._space = main, low_level, numbered(low_level.states)
-        self._surroundings = surroundings
+        self._given_facts = given
         self._rule, self._seed, self._numbers = rule, seed, runs
         self._practice = NetworkPractice(low_level, preset, rule)
         self._experience = [Experience() for _ in runs]
@@ -95,7 +95,7 @@ class Imagination:
     def rules(self, run: int) -> LearntRules:
         """Return what that run has learnt of moving and placing."""
         seen = self._experience[run]
-        actions, size = self._space.actions, self._surroundings[run].size
+        actions, size = self._space.actions, self._given_facts[run].size
         if run not in self._rules or self._rules[run][0] != seen.length:
             self._rules[run] = seen.length, learn_rules(seen.steps, seen.first_of_episode, actions, size)
         return self._rules[run][1]
@@ -113,17 +113,18 @@ class Imagination:
 
         What is probed ``elsewhere`` is taken to pay nothing.
         """
-        here, rule, steps = self._surroundings[run], self._rule, self._experience[run].steps
+        here, rule = self._given_facts[run], self._rule
         rules = rules or self.rules(run)
-        lands, walls = rules.lands, rules.walls
-        return believe(steps, lands, here.size, here.start[2], rule.optimism, rule.neighbours, elsewhere, walls)
+        evidence = evidence_of(self._experience[run].steps, rules.lands, here.size)
+        blocks = here.start[2]
+        return believe(evidence, rules.lands, blocks, rule.optimism, rule.neighbours, elsewhere, rules.walls)
 
     def learn_choice(self, run: int, elsewhere: Collection[int] = ()) -> None:
         """Let the main agent of that run learn what each material would bring in its learnt game.
 
         Of the materials that are played ``elsewhere``, an untried one isn't worth another try.
         """
-        here = self._surroundings[run]
+        here = self._given_facts[run]
         scores = scores_of_materials(
             self._experience[run].extras, here.materials, here.start[2], self.beliefs(run).most, elsewhere
         )
@@ -155,7 +156,7 @@ class Imagination:
         is how many episodes the run has begun. What is probed ``elsewhere``, in games whose episodes are still to come,
         is taken to pay nothing; None where there are no such games.
         """
-        seen, here = self._experience[run], self._surroundings[run]
+        seen, here = self._experience[run], self._given_facts[run]
         rules = self.rules(run)
         beliefs = self.beliefs(run, rules, elsewhere or ())
         anew = bool(self._falls_short[run]) and not self._explores[run] and not beliefs.explores
@@ -217,7 +218,7 @@ class Imagination:
         """Return the unknown cells where that run's policy should place blocks next, with that material."""
         if not self.has_experience(run):
             return frozenset()
-        here, rules = self._surroundings[run], self.rules(run)
+        here, rules = self._given_facts[run], self.rules(run)
         beliefs = self.beliefs(run, rules)
         row, others = np.array([self._row(run, material)]), self._appended(material)
 
@@ -231,10 +232,9 @@ class Imagination:
 
     def known_arena(self, run: int) -> KnownArena:
         """Return what that run knows of its arena now, and where the blocks of its real episodes went."""
-        steps, here = self._experience[run].steps, self._surroundings[run]
-        rules = self.rules(run)
-        beliefs = believe(steps, rules.lands, here.size, here.start[2], walls=rules.walls)
-        return known_arena(self._experience[run], rules.lands, beliefs)
+        seen, here, rules = self._experience[run], self._given_facts[run], self.rules(run)
+        evidence = evidence_of(seen.steps, rules.lands, here.size)
+        return known_arena(seen, rules.lands, believe(evidence, rules.lands, here.start[2], walls=rules.walls))
 
     def episodes(self, run: int) -> int:
         """Return how many real episodes that run has begun."""
@@ -286,7 +286,7 @@ class Imagination:
         steps = self._experience[run].steps
         if not self._rule.real_transitions:
             steps, landed = steps[:0], landed[:0]
-        own: Bools = steps[:, 2] <= self._surroundings[run].start[2]  # an earlier design may have had more blocks
+        own: Bools = steps[:, 2] <= self._given_facts[run].start[2]  # an earlier design may have had more blocks
         if self._rows_a_run > 1:
             own &= steps[:, 8] == material
         steps, landed = steps[own], landed[own]

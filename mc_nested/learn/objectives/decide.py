@@ -4,7 +4,7 @@ The main agent chooses an objective: the cell to build next, and of which materi
 has landed, or for PATIENCE steps a side; then the main agent chooses again (paper, Algorithm 1). Both are greedy.
 """
 
-from collections.abc import Collection
+from collections.abc import Callable, Collection
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from typing import NamedTuple
@@ -14,14 +14,15 @@ import numpy as np
 from mc_nested.arena.action import Action, Cell
 from mc_nested.arena.rules import end_of_episode, landing, moved
 from mc_nested.arena.scenario import Scenario
-from mc_nested.arrays import Float32s
+from mc_nested.arrays import Bools, Float32s
+from mc_nested.learn.dqn.states import LOSES, Sees
 from mc_nested.learn.objectives.arenas import (
     framed,
     framed_cells,
-    out_of_frame,
+    order_planes,
     outside,
     plane_of_each,
-    planes_of,
+    reach_planes,
     side_for,
 )
 from mc_nested.learn.objectives.networks import OrderNetwork, Reaching, ReachNetwork
@@ -56,18 +57,23 @@ class Plan:
 class ObjectiveAgent:
     """The agent with objectives in one scenario, whose design it is told.
 
+    ``order`` says what each cell is worth as the next one, as ``OrderNetwork.values``: the main agent's network, where
+    nothing is put in its place.
+
     Args:
         main: the main agent's parameters, (parameters,).
         nested: the nested agent's.
         scenario: what is built.
+        sees: what the nested agent is shown.
 
     Raises:
         ValueError: they aren't the parameters of such networks.
     """
 
-    def __init__(self, main: Float32s, nested: Float32s, scenario: Scenario) -> None:
-        self._main, self._nested = OrderNetwork(main), ReachNetwork(nested)
-        self._scenario = scenario
+    def __init__(self, main: Float32s, nested: Float32s, scenario: Scenario, sees: Sees = "everything") -> None:
+        self.order: Callable[[Bools], Float32s] = OrderNetwork(main).values
+        self._nested = ReachNetwork(nested)
+        self._scenario, self._sees = scenario, sees
         self._side = side_for(scenario.size)
         self._outside = outside(scenario.size, self._side)
         # An action that was announced is chosen again when its time comes.
@@ -125,17 +131,15 @@ class ObjectiveAgent:
         """Return the cell that the main agent wants next."""
         later = self._scenario.design - placed - self._left(placed)
         wanted = framed_cells(open_cells | later, self._side)[None]
-        values = self._main.values(planes_of(wanted, self._occupied(placed)[None], np.array([framed(cell)])))[0]
-        for each in later:
-            values[framed(each)] = -np.inf
-        x, y = np.unravel_index(values.argmax(), values.shape)
-        return out_of_frame((int(x), int(y)))
+        planes, _ = order_planes(wanted, self._occupied(placed)[None], np.array([framed(cell)]))
+        values, loses = self.order(planes)[0], planes[0, LOSES]
+        return max(sorted(open_cells), key=lambda each: (not loses[framed(each)], float(values[framed(each)])))
 
     def _reach(self, objective: Cell, placed: frozenset[Cell]) -> Reaching:
         """Return what the nested agent knows of that objective."""
         wanted = plane_of_each(np.array([framed(objective)]), self._side)
         nowhere = np.zeros((1, 2), np.int64)
-        return self._nested.reaching(planes_of(wanted, self._occupied(placed)[None], nowhere))
+        return self._nested.reaching(reach_planes(wanted, self._occupied(placed)[None], nowhere, self._sees))
 
     def _occupied(self, placed: Collection[Cell]) -> np.ndarray[tuple[int, ...], np.dtype[np.bool_]]:
         return self._outside | framed_cells(placed, self._side)
@@ -144,7 +148,9 @@ class ObjectiveAgent:
 def built_by_the_rules(agent: ObjectiveAgent, scenario: Scenario) -> tuple[frozenset[Cell], int]:
     """Return what stands after one episode of that agent, and its steps, if all goes as the rules say."""
     plan, cell, placed, steps = Plan(), scenario.start, frozenset[Cell](), 0
-    while not any(end_of_episode(scenario.blocks - len(placed), steps, scenario.step_limit)):
+    while not (
+        agent.is_stuck(plan, placed) or any(end_of_episode(scenario.blocks - len(placed), steps, scenario.step_limit))
+    ):
         decision, plan = agent.decide(plan, cell, placed)
         cell, placed = agent.expected(cell, placed, decision.action)
         steps += 1

@@ -73,21 +73,22 @@ def _with_holes(random: np.random.Generator, design: set[Cell]) -> set[Cell]:
     return design - holes
 
 
-def drawn_obstacles(random: np.random.Generator, size: int) -> Bools:
-    """Return where something stands in an arena of that size, (size, size): chance, walls, or a piece that has grown.
+def drawn_obstacles(random: np.random.Generator, size: int, most_blocks: int) -> Bools:
+    """Return where something stands in an arena of that size, (size, size): chance, walls, or a part of a design.
 
     Often nothing does; often all rows before one are free, as they are where the farthest were built first.
     """
-    if random.random() < 0.35:
-        stands = np.zeros((size, size), np.bool_)
-        for x, y in _piece(random, size, int(random.integers(3, max(4, size * size // 3))), EVERY_STEP, is_line=False):
-            stands[x, y] = True
-    else:
-        stands = random.random((size, size)) < (random.random() * 0.35 if random.random() < 0.7 else 0.0)
-        if random.random() < 0.2:
-            for _ in range(int(random.integers(1, 4))):
-                _put_wall(random, stands)
-    if random.random() < 0.4:
+    stands = np.zeros((size, size), np.bool_)
+    if random.random() < 0.5:
+        left_out = random.random()
+        for x, y in sorted(drawn_design(random, size, most_blocks)):
+            stands[x, y] = random.random() >= left_out
+    elif random.random() < 0.7:
+        stands = random.random((size, size)) < random.random() * 0.35
+    if random.random() < 0.1:
+        for _ in range(int(random.integers(1, 4))):
+            _put_wall(random, stands)
+    if random.random() < 0.3:
         stands[:, : int(random.integers(0, size))] = False
     return stands
 

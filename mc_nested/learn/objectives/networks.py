@@ -11,29 +11,21 @@ import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
 
 from mc_nested.arrays import Bools, Float32s, Int64s
-from mc_nested.learn.dqn.states import AGENT, OCCUPIED, WANTED
-
-NONE = np.float32(-1e6)
-"""The value of a cell that isn't to be built."""
-
-SMALL = np.float32(1e-6)
-"""Added before a logarithm."""
-
-SWEEPS_A_CELL = 1.5
-"""Sweeps for each cell of a side: a way past what stands is longer than straight on."""
+from mc_nested.learn.dqn.nearness import SMALL, TINY, spread
+from mc_nested.learn.dqn.states import AGENT, MANY, NONE, OCCUPIED, WANTED
 
 EIGHT = np.float32(8.0)
 """Cells that count as 1 in a distance."""
 
 
-class Layer(NamedTuple):
+class NetworkLayer(NamedTuple):
     """A layer's weights and its biases: (outputs, inputs) and (outputs,); of a convolution, (outputs, inputs, 3, 3)."""
 
     weights: Float32s
     biases: Float32s
 
 
-def layers_of(flat: Float32s, shapes: Sequence[tuple[int, ...]]) -> list[Layer]:
+def layers_of(flat: Float32s, shapes: Sequence[tuple[int, ...]]) -> list[NetworkLayer]:
     """Return the layers of a row of parameters (parameters,), as the torch engine lays them out.
 
     Of a dense layer, each node's bias follows its weights. Raise ValueError if their number differs.
@@ -45,10 +37,10 @@ def layers_of(flat: Float32s, shapes: Sequence[tuple[int, ...]]) -> list[Layer]:
         if len(own) < weights + biases:
             raise ValueError(f"{len(flat)} parameters are too few")
         if len(shape) > 2:
-            layers.append(Layer(own[:weights].reshape(shape), own[weights:]))
+            layers.append(NetworkLayer(own[:weights].reshape(shape), own[weights:]))
         else:
             nodes = own.reshape(shape[0], shape[1] + 1)
-            layers.append(Layer(nodes[:, :-1], nodes[:, -1]))
+            layers.append(NetworkLayer(nodes[:, :-1], nodes[:, -1]))
         start += weights + biases
     if start != len(flat):
         raise ValueError(f"{len(flat)} parameters, not {start}")
@@ -84,15 +76,17 @@ class ReachNetwork:
         """Return what is known of the objectives of planes (R, OBJECTIVE_PLANES, side, side)."""
         seen = planes[:, :AGENT].astype(np.float32)
         maps = sigmoid(convolved(relu(convolved(seen, self._seen)), self._maps))
-        return Reaching(spread(maps[:, 1], maps[:, 0]), framed_wide(seen))
+        beside = sliding_window_view(padded(seen[:, WANTED], 1), (3, 3), axis=(1, 2)).max((3, 4))
+        near, _ = spread(maps[:, 1] * beside, maps[:, 0] * (1 - seen[:, OCCUPIED]))
+        return Reaching(near, framed_wide(seen))
 
     def values(self, reaching: Reaching, agents: Int64s) -> Float32s:
         """Return the value of each action (R, actions), of agents at these cells (R, 2)."""
         every = np.arange(len(agents))
         near = windows(padded(reaching.near, 1)[:, None], every, agents, 1)
-        highest = near.max(1, keepdims=True)
+        highest = np.maximum(near.max(1, keepdims=True), TINY)
         window = windows(reaching.wide, every, agents, 2)
-        hidden = np.concatenate((near / (highest + SMALL**2), window), axis=1)
+        hidden = np.concatenate((near / highest, window), axis=1)
         values: Float32s = highest * through(hidden, self._dense)
         return values
 
@@ -105,11 +99,11 @@ class OrderNetwork:
 
     SHAPES = (
         (2, 2, 1, 1),
-        (12, 9, 3, 3),
+        (12, 10, 3, 3),
         (12, 12, 3, 3),
         (12, 12, 3, 3),
         (12, 48, 1, 1),
-        (96, 175),
+        (96, 201),
         (96, 96),
         (1, 96),
     )
@@ -121,8 +115,9 @@ class OrderNetwork:
     def values(self, planes: Bools) -> Float32s:
         """Return each cell's value (R, side, side) in planes (R, planes, side, side); NONE if it isn't wanted."""
         seen = planes.astype(np.float32)
-        agents = np.repeat(seen[:, AGENT:], 2, axis=1)
-        near = spread(agents, sigmoid(convolved(seen[:, :AGENT], self._passing)))
+        agents = np.repeat(seen[:, AGENT : AGENT + 1], 2, axis=1)
+        passing = sigmoid(convolved(seen[:, :AGENT], self._passing))
+        near = spread(*(each.reshape(-1, *each.shape[2:]) for each in (agents, passing)))[0].reshape(agents.shape)
         near = np.roll(near, 1, axis=3)  # a block is placed from the cell before it
         maps = np.concatenate((near, -np.log(near + SMALL) / 4), axis=1)
         across, along = _away(planes)
@@ -140,10 +135,11 @@ class OrderNetwork:
                 _cross(hidden, rows, cells),
                 away,
                 np.abs(away),
+                np.count_nonzero(planes[:, WANTED], (1, 2))[rows, None].astype(np.float32) / MANY,
             ),
             axis=1,
         )
-        values = np.full((len(planes), *planes.shape[2:]), NONE)
+        values = np.full((len(planes), *planes.shape[2:]), NONE, np.float32)
         values[rows, x, y] = through(of_cells, self._dense)[:, 0]
         return values
 
@@ -161,7 +157,7 @@ def sigmoid(values: Float32s) -> Float32s:
     return found
 
 
-def through(values: Float32s, layers: Sequence[Layer]) -> Float32s:
+def through(values: Float32s, layers: Sequence[NetworkLayer]) -> Float32s:
     """Return values (n, inputs) after dense layers, with ReLU between them."""
     for layer in layers[:-1]:
         values = relu(values @ layer.weights.T + layer.biases)
@@ -182,7 +178,7 @@ def framed_wide(planes: Float32s) -> Float32s:
     return wide
 
 
-def convolved(planes: Float32s, layer: Layer, apart: int = 1) -> Float32s:
+def convolved(planes: Float32s, layer: NetworkLayer, apart: int = 1) -> Float32s:
     """Return the convolution of planes (R, inputs, side, side), (R, outputs, side, side).
 
     Its kernel's cells are so far ``apart``.
@@ -199,22 +195,6 @@ def convolved(planes: Float32s, layer: Layer, apart: int = 1) -> Float32s:
     return found.reshape(runs, outputs, side, side)
 
 
-def spread(sources: Float32s, passing: Float32s) -> Float32s:
-    """Return how near each cell is to the sources (…, side, side), by how well one passes each (…, side, side)."""
-    side = sources.shape[-1]
-    wide = padded(sources, 1)
-    near = wide[..., 1:-1, 1:-1]
-    before: Float32s = near.copy()
-    for _ in range(math.ceil(SWEEPS_A_CELL * side)):
-        across = np.maximum(wide[..., 2:, 1:-1], wide[..., :-2, 1:-1])
-        along = np.maximum(wide[..., 1:-1, 2:], wide[..., 1:-1, :-2])
-        near[:] = np.maximum(sources, passing * np.maximum(across, along))
-        if np.array_equal(near, before):
-            break
-        before[:] = near
-    return before
-
-
 def windows(wide: Float32s, rows: Int64s, cells: Int64s, reach: int) -> Float32s:
     """Return what planes hold up to ``reach`` cells around some cells, (n, planes * width * width as x, y, planes).
 
@@ -226,7 +206,9 @@ def windows(wide: Float32s, rows: Int64s, cells: Int64s, reach: int) -> Float32s
     """
     width = 2 * reach + 1
     view: Float32s = sliding_window_view(wide, (width, width), axis=(2, 3))
-    seen: Float32s = view[rows, :, cells[:, 0], cells[:, 1]].transpose(0, 2, 3, 1).reshape(len(rows), -1)
+    seen: Float32s = (
+        view[rows, :, cells[:, 0], cells[:, 1]].transpose(0, 2, 3, 1).reshape(len(rows), wide.shape[1] * width**2)
+    )
     return seen
 
 

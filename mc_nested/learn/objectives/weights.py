@@ -13,12 +13,11 @@ from mc_nested.arena.scenario import Material, Scenario
 from mc_nested.arrays import Float32s
 from mc_nested.atomic_file import atomic_write
 from mc_nested.errors import RunError
+from mc_nested.learn.dqn.states import Sees
 from mc_nested.learn.objectives.decide import ObjectiveAgent
 
 FILE = "any-design.safetensors"
 """The weights that come with the package; any-design.md says what they were trained by, and what they reach."""
-
-MAIN, NESTED = "main", "nested"
 
 
 class Weights(NamedTuple):
@@ -36,21 +35,24 @@ def shipped_file() -> Path:
 def shipped_weights() -> Weights:
     """Return the weights that come with the package; RunError, one line, if they are broken."""
     try:
-        return _parsed(shipped_file().read_bytes(), FILE)
+        arrays = load(shipped_file().read_bytes())
+        return Weights(*(np.asarray(arrays[name], np.float32).reshape(-1) for name in Weights._fields))
     except OSError as error:
         raise RunError(f"{FILE}: can't be read ({error.strerror}): install the package again") from error
+    except (SafetensorError, KeyError, ValueError) as error:
+        raise RunError(f"{FILE}: is broken ({error}): install the package again") from error
 
 
 def save_weights(weights: Weights, file: Path) -> None:
     """Write the weights; OSError if the disk refuses."""
     with atomic_write(file) as unfinished:
-        unfinished.write_bytes(save({MAIN: weights.main, NESTED: weights.nested}))
+        unfinished.write_bytes(save(weights._asdict()))
 
 
-def agent_of(weights: Weights, scenario: Scenario) -> ObjectiveAgent:
+def agent_of(weights: Weights, scenario: Scenario, sees: Sees = "everything") -> ObjectiveAgent:
     """Return the agent with those weights; RunError, one line, if they are of another version."""
     try:
-        return ObjectiveAgent(weights.main, weights.nested, scenario)
+        return ObjectiveAgent(*weights, scenario, sees)
     except ValueError as error:
         raise RunError(f"{FILE}: its weights are of another version ({error}): install the package again") from error
 
@@ -58,12 +60,3 @@ def agent_of(weights: Weights, scenario: Scenario) -> ObjectiveAgent:
 def agent_for_cells(weights: Weights, cells: frozenset[Cell], size: int) -> ObjectiveAgent:
     """Return the agent that builds these cells of an arena of that size; RunError as ``agent_of``."""
     return agent_of(weights, Scenario("cells", cells, (0, 0), 0, (Material("any", 0.0, "any"),), size))
-
-
-def _parsed(content: bytes, source: str) -> Weights:
-    try:
-        arrays = load(content)
-        main, nested = (np.asarray(arrays[name], np.float32).reshape(-1) for name in (MAIN, NESTED))
-    except (SafetensorError, KeyError, ValueError) as error:
-        raise RunError(f"{source}: is broken ({error}): install the package again") from error
-    return Weights(main, nested)

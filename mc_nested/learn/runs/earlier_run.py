@@ -26,9 +26,9 @@ class EarlierRun:
     def begin(self, trainer: Training) -> None:
         """Let every run of the trainer begin from it; RunError if its learnt game doesn't fit."""
         trainer.begin_from(self.online, evaluated_first=self.game is None or self.same_design)
-        if self.game is not None and trainer.imagination is not None:
+        if self.game is not None and trainer.practice.imagination is not None:
             try:
-                trainer.imagination.begin_from(self.game, pays=self.same_design, materials=self.same_materials)
+                trainer.practice.imagination.begin_from(self.game, pays=self.same_design, materials=self.same_materials)
             except (KeyError, ValueError, TypeError) as error:
                 raise RunError(f"{self.path}: its learnt game is damaged: train it again") from error
 

@@ -3,21 +3,20 @@
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import Field
 
 from mc_nested.arena.scenario_file import ScenarioTable
 from mc_nested.learn.agents import AgentName
 from mc_nested.learn.builders import Builders, Networks
 from mc_nested.learn.preset import Preset
 from mc_nested.learn.runs.folder_kind import FORMAT
+from mc_nested.toml_file import TomlTable
 
 Coordinate = Annotated[int, Field(ge=0)]
 
 
-class TeamTable(BaseModel):
+class TeamTable(TomlTable):
     """Several builders in one arena: the start cell of each, in the order of their numbers, and how they learn."""
-
-    model_config = ConfigDict(extra="forbid", frozen=True, strict=True)
 
     networks: Networks
     starts: Annotated[list[Annotated[list[Coordinate], Field(min_length=2, max_length=2)]], Field(min_length=1)]
@@ -28,10 +27,8 @@ class TeamTable(BaseModel):
         return Builders(tuple((x, y) for x, y in self.starts), self.networks)
 
 
-class RunConfig(BaseModel):
+class RunConfig(TomlTable):
     """Everything needed to repeat a training; scenario and preset are complete, no other file is needed."""
-
-    model_config = ConfigDict(extra="forbid", frozen=True, strict=True)
 
     format: int = FORMAT
     agent: AgentName
@@ -45,6 +42,11 @@ class RunConfig(BaseModel):
     scenario: ScenarioTable
     team: TeamTable | None = None
     design_unknown: bool = False
+
+    @property
+    def trains_objectives(self) -> bool:
+        """Whether the agent with objectives is trained: one run, which is told the design."""
+        return self.preset.objectives is not None and not self.design_unknown
 
     @property
     def title(self) -> str:

@@ -2,8 +2,8 @@
 
 import csv
 import shutil
-from collections.abc import Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from collections.abc import Mapping, Sequence
+from contextlib import AbstractContextManager
 from pathlib import Path
 from typing import Any
 
@@ -13,18 +13,17 @@ from mc_nested.arena.cooperative.team import Team
 from mc_nested.arena.scenario import Scenario
 from mc_nested.arena.scenario_file import scenario_of
 from mc_nested.arrays import Arrays, part_of
-from mc_nested.atomic_file import atomic_write
+from mc_nested.atomic_file import atomic_write, refused_as
 from mc_nested.errors import RunError, ScenarioError
 from mc_nested.learn.agents import AGENT_SPECS, Agent
 from mc_nested.learn.episode_log import EpisodeRow, EvaluationRow
 from mc_nested.learn.imagination.imagination import learnt_game
-from mc_nested.learn.learnt_game import surroundings_of
+from mc_nested.learn.learnt_game import given_facts_of
 from mc_nested.learn.objectives.weights import shipped_weights
 from mc_nested.learn.runs.checkpoint import Checkpoint, sealed, unsealed
 from mc_nested.learn.runs.folder_kind import check_config, check_free
 from mc_nested.learn.runs.folder_lock import holder_of
 from mc_nested.learn.runs.run_config import RunConfig
-from mc_nested.learn.runs.summary import summarise
 from mc_nested.learn.training import Training
 from mc_nested.learn.unknown_design import UnknownDesigns
 from mc_nested.toml_file import parse_toml, read_toml_text
@@ -73,7 +72,7 @@ class RunFolder:
         """Return an untrained agent as this training's, with that many runs, on the processor or another device."""
         config = self.config
         if config.design_unknown:
-            return UnknownDesigns(shipped_weights(), surroundings_of([self.scenario] * runs))
+            return UnknownDesigns(shipped_weights(), given_facts_of([self.scenario] * runs))
         preset = config.preset.model_copy(update={"device": device})
         builders = config.team.builders if config.team else None
         return Agent(AGENT_SPECS[config.agent], [self.scenario] * runs, preset, config.seed, team=builders)
@@ -102,24 +101,14 @@ class RunFolder:
 
     def begin(self) -> None:
         """Make the folder and write config.toml; RunError if the disk refuses."""
-        try:
+        with refused_as(RunError, self.path, "name another folder, or make room"):
             self.path.mkdir(parents=True, exist_ok=True)
             _write_text(self.path / CONFIG, tomlkit.dumps(self.config.model_dump(exclude_none=True)))
-        except OSError as error:
-            raise RunError(
-                f"{self.path}: can't be written, {error.strerror}: name another folder, or make room"
-            ) from error
 
-    @contextmanager
-    def writing(self) -> Iterator[None]:
+    def writing(self) -> AbstractContextManager[None]:
         """Turn a disk error in the block into a RunError, one line that says how to resume."""
-        try:
-            yield
-        except OSError as error:
-            raise RunError(
-                f"{self.path}: can't be written ({error}): make room, then mc-nested train --resume {self.path} "
-                f"goes on from the last checkpoint"
-            ) from error
+        then = f"make room, then mc-nested train --resume {self.path} goes on from the last checkpoint"
+        return refused_as(RunError, self.path, then)
 
     def save(self, trainer: Training, wall_s: float, beside: Mapping[str, Any] | None = None) -> dict[str, Any]:
         """Write the checkpoint, the tables and the summary as they are now, and return the summary.
@@ -220,3 +209,48 @@ def _write_table(path: Path, header: Sequence[str], rows: Sequence[EpisodeRow | 
         writer = csv.writer(file, lineterminator="\n")
         writer.writerow(header)
         writer.writerows(rows)
+
+
+def summarise(config: RunConfig, scenario: Scenario, trainer: Training, wall_s: float) -> dict[str, Any]:
+    """Return the results of a training so far, for summary.json; scores are r_M, one per trial, of the policy it keeps.
+
+    An unfinished trial has no final score: it has learned since its last greedy evaluation. ``played_to_optimum``
+    includes the greedy episodes: in a live game they take as long as any other.
+    """
+    evaluations = [[row for row in trainer.evaluation_rows if row.trial == trial] for trial in range(config.trials)]
+    firsts = [next((row.episode for row in rows if row.score >= scenario.optimum), None) for rows in evaluations]
+    team = config.team
+    builders = {"builders": len(team.starts), "networks_kind": team.networks, "starts": team.starts} if team else {}
+    return {
+        "scenario": scenario.name,
+        "agent": config.agent,
+        "preset": config.preset_name,
+        "backend": config.backend,
+        **builders,
+        "trials": config.trials,
+        "seed": config.seed,
+        "episodes": config.preset.episodes,
+        "optimum": scenario.optimum,
+        "final_scores": [
+            float(score) if finished else None
+            for score, finished in zip(trainer.policy_scores, trainer.runs_finished, strict=True)
+        ],
+        "episodes_to_optimum": firsts,
+        "played_to_optimum": [_played_until(trainer, trial, first) for trial, first in enumerate(firsts)],
+        "episodes_done": [int(done) for done in trainer.episodes_done],
+        "env_steps": trainer.env_steps,
+        "evaluation_steps": trainer.evaluation_steps,
+        "updates": trainer.agent.updates,
+        "wall_s": round(wall_s, 3),
+        "networks": trainer.agent.networks,
+        "parameters": trainer.agent.parameters,
+    }
+
+
+def _played_until(trainer: Training, trial: int, episode: int | None) -> dict[str, int] | None:
+    if episode is None:
+        return None
+    played = [row for row in trainer.episode_rows if row.trial == trial and row.episode <= episode]
+    greedy = [row for row in trainer.evaluation_rows if row.trial == trial and row.episode <= episode]
+    steps = sum(row.steps for row in played) + sum(row.steps for row in greedy)
+    return {"episodes": len(played) + len(greedy), "steps": steps}

@@ -12,7 +12,6 @@ from collections.abc import Callable, Iterable
 from contextlib import ExitStack
 from dataclasses import dataclass
 from functools import partial
-from types import TracebackType
 from typing import Literal, get_args
 
 from mc_nested.errors import NotConfirmedError, NotInFrontError, StoppedError, WrongScreenError
@@ -84,9 +83,7 @@ class InputController:
         atexit.register(self.release_all)
         return self
 
-    def __exit__(
-        self, _kind: type[BaseException] | None, _error: BaseException | None, _traceback: TracebackType | None
-    ) -> None:
+    def __exit__(self, *_: object) -> None:
         with self._exits, ExitStack() as releases:
             # Twice: a release that fails may work a moment later.
             releases.callback(self.release_all)

@@ -52,6 +52,12 @@ def block_of(origin: Block, facing: Facing, cell: Cell) -> Block:
     return origin[0] + right_x * x + forward_x * y, origin[1], origin[2] + right_z * x + forward_z * y
 
 
+def corners_of(one: Block, other: Block) -> tuple[Block, Block]:
+    """Return the lowest and the highest corner of the box that two of its corners span, both included."""
+    (x, y, z), (other_x, other_y, other_z) = one, other
+    return (min(x, other_x), min(y, other_y), min(z, other_z)), (max(x, other_x), max(y, other_y), max(z, other_z))
+
+
 def centre_of(origin: Block, facing: Facing, cell: Cell) -> tuple[float, float, float]:
     """Return the world position of the feet of an agent in the middle of ``cell``, in blocks."""
     x, y, z = block_of(origin, facing, cell)
@@ -77,6 +83,9 @@ def cell_at(position: tuple[float, float]) -> Cell:
     """Return the cell that holds a position given in cells."""
     return math.floor(position[0] + 0.5), math.floor(position[1] + 0.5)
 
+
+EYES = 1.62
+"""Blocks from the feet to the eyes (FACTS: Standing, looking, placing)."""
 
 COASTING_CLICK = 0.19
 """Blocks off the middle from which a click is right, if the agent comes to a stop within the tolerance. From 0.2 on the

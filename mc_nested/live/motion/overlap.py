@@ -18,7 +18,7 @@ from mc_nested.live.model.kinematics import TICK_S
 from mc_nested.live.model.reading import Target
 from mc_nested.live.model.timing import EARLY_LOOK_S, HALF_FRAME_S, THIRD_FRAME_S, surely_seen_after
 from mc_nested.live.motion.locomotion import Locomotion
-from mc_nested.live.motion.overlap_plan import FORWARD, SEEN_TICKS, Leg, Plan, Planner, Surroundings, Walk
+from mc_nested.live.motion.overlap_plan import FORWARD, SEEN_TICKS, Leg, Planner, Surroundings, Walk, WalkPlan
 from mc_nested.live.motion.pose_observer import PoseEstimate, PoseObserver
 from mc_nested.live.motion.walk_tracker import MATCH, SLIPPERY, SLIPPERY_MATCH, CoastingState
 from mc_nested.live.profile.tables import Profile
@@ -48,7 +48,7 @@ class _Action:
 
     leg: Leg
     after: Leg | None
-    plan: Plan
+    plan: WalkPlan
     planner: Planner
     built: Mapping[Cell, str]
     shown_id: str
@@ -216,12 +216,12 @@ class Overlap:
         x, y, z = block = self._arena.block_of(cell)
         own = action.built.get(cell)
         is_floor = pose.target.pos == (x, y - 1, z)
+        is_right = is_floor if own is None else pose.target == Target(block, own)
         if cell != front:
-            return is_floor if own is None else pose.target == Target(block, own)
+            return is_right
         if action.is_clicked and pose.target == Target(block, action.shown_id):
             action.is_front_right = True
             return True
-        is_right = is_floor if own is None else pose.target == Target(block, own)
         action.sees_floor |= is_floor
         action.is_front_right |= is_right and not leg.places
         return is_right

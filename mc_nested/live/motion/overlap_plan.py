@@ -15,11 +15,8 @@ from typing import NamedTuple
 
 from mc_nested.arena.action import Cell
 from mc_nested.arena.rules import front_of, is_inside
-from mc_nested.live.model.coordinates import STRAY_CELLS, GroundVector, cell_at, hits_floor
+from mc_nested.live.model.coordinates import EYES, STRAY_CELLS, GroundVector, cell_at, hits_floor
 from mc_nested.live.motion.walk_tracker import AT_REST, CoastingState
-
-EYES = 1.62
-"""Blocks from the feet to the eyes (FACTS: Standing, looking, placing)."""
 
 REFUSED = 0.8
 """Blocks between a player's middle and that of a block on the same floor, below which they touch on that axis."""
@@ -54,14 +51,14 @@ class Leg(NamedTuple):
         return GroundVector(self.sign * size, 0.0) if self.axis == 0 else GroundVector(0.0, self.sign * size)
 
 
-class Change(NamedTuple):
+class KeyChange(NamedTuple):
     """From the tick after this gap on, the keys that are down push by so much."""
 
     gap: int
     push: GroundVector
 
 
-class Plan(NamedTuple):
+class WalkPlan(NamedTuple):
     """The gaps in which an action's walk is over, the next one's key goes down and up, and the click is sent.
 
     ``start`` is None where no other key goes down: no walk follows, or the same key stays down until ``stop``.
@@ -72,7 +69,7 @@ class Plan(NamedTuple):
     start: int | None
     stop: int
     click: int | None
-    changes: tuple[Change, ...]
+    changes: tuple[KeyChange, ...]
 
 
 @dataclass(frozen=True)
@@ -87,7 +84,7 @@ class Walk:
 
     tick: int
     state: CoastingState
-    changes: tuple[Change, ...] = ()
+    changes: tuple[KeyChange, ...] = ()
 
     def states(self, until: int) -> list[CoastingState]:
         """Return its state after each tick, from the known one to ``until``."""
@@ -105,7 +102,7 @@ class Walk:
         """Return where it stops; no key is down after ``last_change``."""
         return self.states(max(last_change, self.tick) + 1)[-1].end
 
-    def also(self, *changes: Change) -> "Walk":
+    def also(self, *changes: KeyChange) -> "Walk":
         """Return the same walker, whose keys change so as well."""
         return replace(self, changes=(*self.changes, *changes))
 
@@ -179,7 +176,7 @@ class Planner:
 
     def plan(
         self, walk: Walk, leg: Leg, press: int | None, first: int, after: Leg | None, no_forward: int
-    ) -> Plan | None:
+    ) -> WalkPlan | None:
         """Return how an action is done; None if there is no way without standing still.
 
         Args:
@@ -191,15 +188,15 @@ class Planner:
             no_forward: the gaps before this one in which forward must not be pressed.
         """
         if press is not None:
-            walk = walk.also(Change(press, leg.push(self.push)))
+            walk = walk.also(KeyChange(press, leg.push(self.push)))
         release = self._release(walk, leg, first if press is None else press + 1)
         if release is None:
             return None
         if after is None:
-            return self._try(walk, leg, Change(release, AT_REST), (release, None), first)
+            return self._try(walk, leg, KeyChange(release, AT_REST), (release, None), first)
         goes_on = (after.axis, after.sign) == (leg.axis, leg.sign)
         if goes_on and (stop := self._release(walk, after, release + 1)) is not None:
-            plan = self._try(walk, leg, Change(stop, AT_REST), (release, None), first)
+            plan = self._try(walk, leg, KeyChange(stop, AT_REST), (release, None), first)
             if plan is not None:
                 return plan
         is_forward = (after.axis, after.sign) == FORWARD
@@ -210,23 +207,23 @@ class Planner:
         turns = (self._turn(walk, leg, after, (release, start), first) for start in starts)
         return next((plan for plan in turns if plan is not None), None)
 
-    def _turn(self, walk: Walk, leg: Leg, after: Leg, gaps: tuple[int, int], first: int) -> Plan | None:
+    def _turn(self, walk: Walk, leg: Leg, after: Leg, gaps: tuple[int, int], first: int) -> WalkPlan | None:
         """Return the plan in which the key goes up in the first of these gaps, and the next one down in the second."""
-        turned = walk.also(Change(gaps[0], AT_REST), Change(gaps[1], after.push(self.push)))
+        turned = walk.also(KeyChange(gaps[0], AT_REST), KeyChange(gaps[1], after.push(self.push)))
         stop = self._release(turned, after, gaps[1] + 1)
-        return None if stop is None else self._try(turned, leg, Change(stop, AT_REST), gaps, first)
+        return None if stop is None else self._try(turned, leg, KeyChange(stop, AT_REST), gaps, first)
 
     def _release(self, walk: Walk, leg: Leg, first: int) -> int | None:
         """Return the gap from ``first`` on in which the leg's key has to go up; None if it can't end well."""
         target, axis = leg.cell[leg.axis], leg.axis
         ends = {
-            gap: abs(walk.also(Change(gap, AT_REST)).end(gap)[axis] - target)
+            gap: abs(walk.also(KeyChange(gap, AT_REST)).end(gap)[axis] - target)
             for gap in range(first, first + LONGEST_HOLD)
         }
         best = min(ends, key=lambda gap: ends[gap])
         return best if ends[best] <= self.tolerance else None
 
-    def _try(self, walk: Walk, leg: Leg, last: Change, gaps: tuple[int, int | None], first: int) -> Plan | None:
+    def _try(self, walk: Walk, leg: Leg, last: KeyChange, gaps: tuple[int, int | None], first: int) -> WalkPlan | None:
         """Return the plan with that last change, if nothing is in its way and the action can be seen to be done."""
         whole = walk.also(last)
         positions = whole.positions(last.gap + SEEN_TICKS)
@@ -235,10 +232,10 @@ class Planner:
         release, start = gaps
         if not leg.places:
             seen = (cell_at(each) == leg.cell and self.around.sees(each, leg.cell) for each in positions.values())
-            return Plan(release, start, last.gap, None, whole.changes) if any(seen) else None
+            return WalkPlan(release, start, last.gap, None, whole.changes) if any(seen) else None
         possible = range(max(first, walk.tick + 1), last.gap + SEEN_TICKS - 2)
         click = next((gap for gap in possible if self._may_click(whole, positions, leg, gap)), None)
-        return None if click is None else Plan(release, start, last.gap, click, whole.changes)
+        return None if click is None else WalkPlan(release, start, last.gap, click, whole.changes)
 
     def _may_click(self, walk: Walk, positions: dict[int, GroundVector], leg: Leg, gap: int) -> bool:
         """Return whether a click in that gap is right, also a little early or late, and its block can be seen."""
@@ -257,7 +254,7 @@ class Planner:
         """Return whether the floor is seen before the click: a frame shows what the eyes saw a tick before."""
         return any(self.around.sees(eyes, cell) for tick, eyes in positions.items() if tick < gap - self.lag)
 
-    def _unseen(self, changes: Sequence[Change], gap: int) -> list[Change]:
+    def _unseen(self, changes: Sequence[KeyChange], gap: int) -> list[KeyChange]:
         """Return the changes after which a key may be down in a gap: the last one seen to be felt, and all after it."""
         sent = [change for change in changes if change.gap <= gap]
         felt = [at for at, change in enumerate(sent) if change.gap + 1 <= gap - self.lag]

@@ -2,13 +2,14 @@
 
 import math
 
-from pydantic import BaseModel, ConfigDict, Field, model_validator
+from pydantic import ConfigDict, Field, model_validator
 
 from mc_nested.arena.action import LARGEST_SIZE, Cell
 from mc_nested.arena.scenario import DEFAULT_SIZE, Scenario
 from mc_nested.live.model import coordinates
 from mc_nested.live.model.coordinates import Facing, GroundVector
 from mc_nested.live.model.reading import Block
+from mc_nested.toml_file import TomlTable
 
 FILL_LIMIT = 32768
 """Blocks that one /fill may change (FACTS: Commands)."""
@@ -27,10 +28,10 @@ def size_for(scenario: Scenario) -> int:
     return max(DEFAULT_SIZE, scenario.size)
 
 
-class ProfileTable(BaseModel):
-    """A table of a profile: its keys are fixed, unknown ones are refused, and it never changes."""
+class ProfileTable(TomlTable):
+    """A table of a profile: all its numbers are finite."""
 
-    model_config = ConfigDict(extra="forbid", frozen=True, strict=True, allow_inf_nan=False)
+    model_config = ConfigDict(allow_inf_nan=False)
 
 
 class Arena(ProfileTable):
@@ -85,11 +86,7 @@ class Arena(ProfileTable):
     @property
     def region(self) -> tuple[Block, Block]:
         """The lowest and the highest corner of the marked blocks, both included."""
-        one, other = self.marked
-        return (
-            (min(one[0], other[0]), min(one[1], other[1]), min(one[2], other[2])),
-            (max(one[0], other[0]), max(one[1], other[1]), max(one[2], other[2])),
-        )
+        return coordinates.corners_of(*self.marked)
 
     @property
     def middle(self) -> Cell:

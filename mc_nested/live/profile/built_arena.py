@@ -7,6 +7,7 @@ border       a ring of blocks on the ground around the arena's cells
 
 from collections.abc import Sequence
 
+from mc_nested.live.model.coordinates import corners_of
 from mc_nested.live.model.reading import Block
 from mc_nested.live.profile.arena import Arena
 
@@ -41,11 +42,4 @@ def border_of(arena: Arena) -> list[Box]:
     """Return the four sides of the ring."""
     size = arena.size
     corners = [arena.block_of(cell) for cell in ((-1, -1), (size, -1), (size, size), (-1, size))]
-    return [_ordered(one, other) for one, other in zip(corners, [*corners[1:], corners[0]], strict=True)]
-
-
-def _ordered(one: Block, other: Block) -> Box:
-    return (
-        (min(one[0], other[0]), min(one[1], other[1]), min(one[2], other[2])),
-        (max(one[0], other[0]), max(one[1], other[1]), max(one[2], other[2])),
-    )
+    return [corners_of(one, other) for one, other in zip(corners, [*corners[1:], corners[0]], strict=True)]

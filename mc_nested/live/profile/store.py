@@ -10,7 +10,7 @@ import tomlkit
 from pydantic import BaseModel
 from tomlkit.items import Table
 
-from mc_nested.atomic_file import atomic_write
+from mc_nested.atomic_file import atomic_write, refused_as
 from mc_nested.errors import ProfileError
 from mc_nested.live.profile.folder import profile_folder
 from mc_nested.live.profile.tables import FORMAT, Profile
@@ -57,13 +57,11 @@ def save_profile(profile: Profile, path: Path) -> None:
     document = parse_document(known, str(path), ProfileError)
     _merge(document, json.loads(profile.model_dump_json()), Profile)
     text = tomlkit.dumps(document)
-    try:
+    with refused_as(ProfileError, path, "choose another file"):
         path.parent.mkdir(parents=True, exist_ok=True)
         if text != known and path.exists() and _is_profile(known):
             _replace(earlier_path(path), known)
         _replace(path, text)
-    except OSError as error:
-        raise ProfileError(f"{path}: can't be written ({error}): choose another file") from error
 
 
 def earlier_path(path: Path) -> Path:
@@ -86,7 +84,7 @@ def undo_profile(path: Path) -> Path | None:
     text = read_toml_text(earlier, ProfileError)
     parse_profile(text, str(earlier))
     broken = None
-    try:
+    with refused_as(ProfileError, path, "make room, and try again"):
         if path.exists() and _holds_profile(path):
             _replace(beside := path.with_name(f"{path.name}.undone"), path.read_text("utf-8-sig"))
             _replace(path, text)
@@ -94,8 +92,6 @@ def undo_profile(path: Path) -> Path | None:
         else:
             broken = _keep_broken(path) if path.exists() else None
             _replace(path, text)
-    except OSError as error:
-        raise ProfileError(f"{path}: can't be written ({error}): make room, and try again") from error
     return broken
 
 

@@ -7,7 +7,6 @@ its size.
 """
 
 import time
-from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
@@ -72,18 +71,15 @@ class CallEncoder:
 
     Args:
         size: gives the window's width and height.
-        font: the font that reads it; None while it isn't known.
-        now: seconds, for the budget.
     """
 
-    def __init__(
-        self, size: tuple[int, int], font: Font | None = None, now: Callable[[], float] = time.monotonic
-    ) -> None:
+    font: Font | None = None
+    """The font that reads it; None while it isn't known."""
+
+    def __init__(self, size: tuple[int, int]) -> None:
         self.size = size
         self._first_size = size
-        self.font = font
-        self._now = now
-        self._budget = ByteBudget(now())
+        self._budget = ByteBudget(time.monotonic())
         self._pictured_at = -PICTURE_EVERY_S
         self._index = 0
 
@@ -112,7 +108,7 @@ class CallEncoder:
         else:
             text, kept = (text if is_read else None), None
         pictures: list[KeptPicture] = []
-        is_due = self._now() - self._pictured_at >= PICTURE_EVERY_S
+        is_due = time.monotonic() - self._pictured_at >= PICTURE_EVERY_S
         if kept is None or is_due:
             blanked = self._without_chat(look.frame, look.region, text_pixels_of(look))
             pictures = self._picture(blanked, look.region)
@@ -140,7 +136,7 @@ class CallEncoder:
         return blanked
 
     def _picture(self, blanked: Frame, region: Region | None) -> list[KeptPicture]:
-        now = self._now()
+        now = time.monotonic()
         if blanked.size == 0 or not self._budget.may_spend(now):
             return []
         done, png = cv2.imencode(".png", blanked, [cv2.IMWRITE_PNG_COMPRESSION, 1])

@@ -7,7 +7,7 @@ from typing import Any
 
 import tomlkit
 
-from mc_nested.atomic_file import atomic_write
+from mc_nested.atomic_file import atomic_write, refused_as
 from mc_nested.errors import RecordingError
 from mc_nested.live.recording.call_encoder import KeptPicture
 from mc_nested.live.recording.format import event_of
@@ -63,22 +63,19 @@ def cut(
         facts = {name: clean(text) for name, text in facts.items()}
     begin = _first_reset(path, first, last)
     written = 0
-    try:
-        with atomic_write(out) as unfinished:
-            unfinished.unlink(missing_ok=True)
-            writer = PartWriter(unfinished, facts)
-            try:
-                for calls, pictures in _batches(path, begin, last):
-                    cleaned = [(at, _cleaned(call, clean)) for at, call in calls] if clean else calls
-                    events = [(at, event) for at, call in cleaned if (event := event_of(call))]
-                    writer.write(cleaned, events, pictures if with_pictures else [])
-                    written += len(calls)
-            finally:
-                writer.close()
-            if not written:
-                raise RecordingError(f"{path}: nothing was recorded then: choose another time")
-    except OSError as error:
-        raise RecordingError(f"{out}: can't be written ({error.strerror or error}): name another file") from error
+    with refused_as(RecordingError, out, "name another file"), atomic_write(out) as unfinished:
+        unfinished.unlink(missing_ok=True)
+        writer = PartWriter(unfinished, facts)
+        try:
+            for calls, pictures in _batches(path, begin, last):
+                cleaned = [(at, _cleaned(call, clean)) for at, call in calls] if clean else calls
+                events = [(at, event) for at, call in cleaned if (event := event_of(call))]
+                writer.write(cleaned, events, pictures if with_pictures else [])
+                written += len(calls)
+        finally:
+            writer.close()
+        if not written:
+            raise RecordingError(f"{path}: nothing was recorded then: choose another time")
     return written
 
 

@@ -27,7 +27,7 @@ from mc_nested.live.recording.call_encoder import KeptPicture
 from mc_nested.live.recording.recording_file import PartEnd, facts_of, read_recording
 from mc_nested.live.recording.replayed_devices import OtherCall, ReplayedTape, replayed
 from mc_nested.live.recording.replayed_screen import PixelReader, ReplayedScreen
-from mc_nested.live.vision.font import Font, load_font
+from mc_nested.live.vision.font import Font
 
 
 @dataclass(frozen=True)
@@ -72,35 +72,19 @@ def profile_of(path: Path, facts: Mapping[str, str]) -> Profile:
         raise RecordingError(f"{path}: says nothing of its profile: it can't be replayed") from None
 
 
-def replay(path: Path, font: Font | None = None, on_progress: Callable[[Replayed], None] = lambda _: None) -> Replayed:
-    """Replay a recording's file or folder.
+def replay(path: Path, font: Font) -> Replayed:
+    """Replay a recording's file or folder, read with that font.
 
-    Args:
-        path: the recording.
-        font: reads it; the font of its profile without one.
-        on_progress: is called after each action.
-
-    Raises:
-        RecordingError: it is foreign, of another format or holds nothing.
-        FontError: its profile's font isn't on this computer.
+    Raise RecordingError if it is foreign, of another format or holds nothing.
     """
-    facts = facts_of(path)
-    profile = profile_of(path, facts)
-    player = _Player(path, facts, profile, font or load_font(profile.screen.font_path()), on_progress)
-    return player.play()
+    return _Player(path, font).play()
 
 
 class _Player:
-    def __init__(
-        self,
-        path: Path,
-        facts: Mapping[str, str],
-        profile: Profile,
-        font: Font,
-        on_progress: Callable[[Replayed], None],
-    ) -> None:
+    def __init__(self, path: Path, font: Font) -> None:
+        facts = facts_of(path)
+        profile = profile_of(path, facts)
         self.seen = Replayed()
-        self._on_progress = on_progress
         width, height = (int(each) for each in facts["size"].split("x"))
         self._pixels = PixelReader((width, height), font, overlay_of(profile))
         self._tape = ReplayedTape(self._calls(path))
@@ -146,7 +130,6 @@ class _Player:
                 following = (Action(then[0]), then[1]) if (then := facts.get("following")) else None
                 self._call(partial(game.act, Action(facts["action"]), facts.get("material"), following))
                 self.seen.followed += 1
-                self._on_progress(self.seen)
         except OtherCall as other:
             if tape.peek() is not None and tape.stop_reason is None:
                 self._differs("decision", _words(other.then), _words(other.now))

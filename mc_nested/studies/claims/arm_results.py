@@ -6,7 +6,6 @@ from typing import Literal
 
 import numpy as np
 
-from mc_nested.arena.scenario import Scenario
 from mc_nested.arrays import Float64s
 from mc_nested.studies.arm import Arm
 from mc_nested.studies.job import JobBuilders
@@ -30,11 +29,6 @@ class ArmResults:
         return self.trials[0].arm
 
     @property
-    def design(self) -> Scenario:
-        """What is built."""
-        return self.trials[0].scenario
-
-    @property
     def topic(self) -> str:
         """What it is about."""
         return self.arm.labels["topic"]
@@ -47,17 +41,17 @@ class ArmResults:
     @property
     def scenario(self) -> str:
         """The design's name."""
-        return self.design.name
+        return self.trials[0].scenario.name
 
     @property
     def materials(self) -> int:
         """How many there are to choose from."""
-        return len(self.design.materials)
+        return len(self.trials[0].scenario.materials)
 
     @property
     def optimum(self) -> float:
         """The design's highest score."""
-        return self.design.optimum
+        return self.trials[0].scenario.optimum
 
     @property
     def stops(self) -> bool:

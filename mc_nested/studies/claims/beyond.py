@@ -94,11 +94,6 @@ def alone_among(arms: Sequence[ArmResults]) -> ArmResults:
     return next(arm for arm in arms if arm.team and arm.team.count == 1)
 
 
-def designs_of(arms: Sequence[ArmResults]) -> list[str]:
-    """Return the names of their designs, each once."""
-    return list(dict.fromkeys(arm.scenario for arm in arms))
-
-
 def equal_budget(arms: Sequence[ArmResults], of: Budget) -> int:
     """Return what every trial of these had spent in the end."""
     return min(arm.least_cost(of) for arm in arms)
@@ -148,7 +143,7 @@ def _of_parts(arms: Sequence[ArmResults]) -> list[Claim]:
                 OUTPERFORMED,
                 "5.2",
                 ABOVE,
-                (_above(nested, other, other.scenario),),
+                (above(other.scenario, nested, other),),
             )
             for number, other in enumerate(against, start=2)
         ),
@@ -233,18 +228,14 @@ def _compared_teams(
     letter: str, title: str, paper: str, teams: Sequence[ArmResults], others: Sequence[ArmResults] | ArmResults
 ) -> Claim:
     beside = [others] * len(teams) if isinstance(others, ArmResults) else others
-    lines = tuple(_above(team, other, "") for team, other in zip(teams, beside, strict=True))
+    pairs = zip(teams, beside, strict=True)
+    lines = tuple(above(f"{team.name} and {other.name}", team, other) for team, other in pairs)
     return Claim(letter, title, paper, "6", ABOVE + TEAM_READ, lines)
 
 
-def _above(arm: ArmResults, other: ArmResults, where: str) -> Evidence:
-    what = where or f"{arm.name} and {other.name}"
-    return above(what, (arm.name, other.name), (arm.last_ten, other.last_ten))
-
-
-def above(what: str, names: tuple[str, str], pair: Pair) -> Evidence:
+def above(what: str, arm: ArmResults, other: ArmResults) -> Evidence:
     """Return whether the first scores above the second; the opposite is that it is below."""
-    return compared(what, names, pair, ahead_by_score, MeanEffect)
+    return compared(what, (arm.name, other.name), (arm.last_ten, other.last_ten), ahead_by_score, MeanEffect)
 
 
 def not_behind(what: str, names: tuple[str, str], pair: Pair) -> Evidence:

@@ -15,7 +15,7 @@ from pathlib import Path
 from threading import Lock
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from mc_nested.atomic_file import atomic_write
+from mc_nested.atomic_file import atomic_write, refused_as
 from mc_nested.errors import ClusterError, RunError, UserError
 from mc_nested.learn.runs.folder_lock import FILE as LOCK
 from mc_nested.report.tensorboard import FOLDER
@@ -168,12 +168,10 @@ def wanted_here(worker: "Worker") -> Callable[[], bool]:
 
 def landed_from(trained: Trained, folder: Path) -> JobEnded:
     """Put what a worker sent into the job's folder: how the job ended. RunError if the disk refuses."""
-    try:
+    with refused_as(RunError, folder, "make room"):
         if not trained.ended.failed:
             land(folder, trained.files)
             write_below(folder.parent.parent / FOLDER, trained.events)
-    except OSError as error:
-        raise RunError(f"{folder}: can't be written ({error}): make room") from error
     return trained.ended
 
 

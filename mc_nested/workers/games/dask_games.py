@@ -35,50 +35,42 @@ LOST = "the scheduler was lost: start it again"
 
 
 @dataclass(frozen=True)
-class Joined:
-    """A game has joined, or come back."""
+class GameEvent:
+    """What has happened to the game of that name."""
 
     game: str
+
+
+class Joined(GameEvent):
+    """It has joined, or come back."""
+
+
+class Left(GameEvent):
+    """It is gone; whatever it was asked won't be answered."""
 
 
 @dataclass(frozen=True)
-class Left:
-    """A game is gone; whatever it was asked won't be answered."""
+class Answered(GameEvent):
+    """It has answered, or ``answer`` is an error that it raised."""
 
-    game: str
-
-
-@dataclass(frozen=True)
-class Answered:
-    """A game has answered, or ``answer`` is an error that it raised."""
-
-    game: str
     answer: GameAnswer | Exception
 
 
-@dataclass(frozen=True)
-class NameTaken:
+class NameTaken(GameEvent):
     """A second game of that name wanted to join, and was refused."""
 
-    game: str
-
 
 @dataclass(frozen=True)
-class Unreachable:
-    """A game has answered, and its answer can't be fetched at that address, which a firewall may close."""
+class Unreachable(GameEvent):
+    """It has answered, and its answer can't be fetched at that address, which a firewall may close."""
 
-    game: str
     address: str
 
 
-GameEvent = Joined | Left | Answered | NameTaken | Unreachable
-
-
 @dataclass(frozen=True)
-class Done:
-    """What a game was asked is done, or withdrawn."""
+class Done(GameEvent):
+    """What it was asked is done, or withdrawn."""
 
-    game: str
     future: Future[GameAnswer]
 
 

@@ -35,7 +35,7 @@ def test_saved_findings_are_loaded_as_they_were(profile: Path) -> None:
     font = found("font", "scale 2", pictures=(ReportPicture("grey", GREY, "all over"), ReportPicture("red", RED)))
     save_findings(profile, [font, found("cross-check")], [Check(CheckName.CLIPBOARD, "skip", "none")], "2026-11-21")
     kept = load_findings(profile)
-    assert kept.checks == (CheckFinding("clipboard", "skip", "none", ""),)
+    assert kept.checks == (CheckFinding(name="clipboard", status="skip", detail="none", fix=""),)
     assert kept.checked == "2026-11-21"
     assert [(step.step, step.date, step.lines, step.samples) for step in kept.steps] == [
         ("font", "2026-11-21", ("scale 2",), 1),

@@ -24,8 +24,8 @@ FONT = StepFindings(
 )
 WALK = StepFindings("walk", "2026-11-21", ("0.216 blocks a tick",), 96, (ReportPicture("The curve", GREY),))
 CHECKS = (
-    CheckFinding("session", "pass", "X11"),
-    CheckFinding("window", "fail", "not found", "start the game"),
+    CheckFinding(name="session", status="pass", detail="X11"),
+    CheckFinding(name="window", status="fail", detail="not found", fix="start the game"),
 )
 MADE = CalibrationReport(
     "mine",
@@ -100,7 +100,7 @@ def test_the_report_shows_the_fingerprint_the_checks_and_the_steps_in_the_order_
 
 
 def test_a_fix_is_shown_only_where_something_has_to_be_done() -> None:
-    done = CheckFinding("game", "pass", "found", "not needed")
+    done = CheckFinding(name="game", status="pass", detail="found", fix="not needed")
     assert "not needed" not in page(dataclasses.replace(MADE, findings=Findings((), (done,)))).texts
 
 
@@ -151,7 +151,7 @@ HTML = st.text(st.sampled_from("<>&\"'/={}%abim sx"), max_size=30)
 @given(HTML)
 def test_html_in_any_text_is_escaped(text: str) -> None:
     step = StepFindings(text, text, (text,), 1, (ReportPicture(text, GREY, text),))
-    check = CheckFinding(text, "warn", text, text)
+    check = CheckFinding(name=text, status="warn", detail=text, fix=text)
     plain = page(MADE)
     seen = page(CalibrationReport(text, MADE.profile, text, Findings((FONT, step), (*CHECKS, check), text), text))
     assert seen.open == []
@@ -165,7 +165,13 @@ def test_user_names_and_home_folders_are_removed_from_the_report(name: str, arou
     names = Names(f"/home/{name}", (name,))
     text = f"{around}{name}{around} in /home/{name}/x, C:\\Users\\{name}\\x"
     step = StepFindings("font", text, (text,), 1, (ReportPicture(text, GREY, text),))
-    made = CalibrationReport(text, MADE.profile, text, Findings((step,), (CheckFinding(text, "warn", text, text),)), "")
+    made = CalibrationReport(
+        text,
+        MADE.profile,
+        text,
+        Findings((step,), (CheckFinding(name=text, status="warn", detail=text, fix=text),)),
+        "",
+    )
     html = report_html(made, names)
     left = re.sub(r"data:image/\w+;base64,[^\"]*", "", html[html.index("</style>") :])
     assert name not in left

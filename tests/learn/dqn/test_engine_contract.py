@@ -24,8 +24,8 @@ def test_both_engines_agree_after_two_hundred_updates_of_the_papers_network(rows
     np.testing.assert_allclose(ours.online, theirs.online, rtol=1e-3, atol=1e-5)
     np.testing.assert_allclose(ours.target, theirs.target, rtol=1e-3, atol=1e-5)
     assert ours.updates.tolist() == theirs.updates.tolist()
-    np.testing.assert_allclose(ours.last_loss(), theirs.last_loss(), rtol=1e-3)
-    np.testing.assert_allclose(ours.last_q(), theirs.last_q(), rtol=1e-3, atol=1e-4)
+    np.testing.assert_allclose(ours.last.loss(), theirs.last.loss(), rtol=1e-3)
+    np.testing.assert_allclose(ours.last.q(), theirs.last.q(), rtol=1e-3, atol=1e-4)
 
 
 @pytest.mark.parametrize("rows", [None, [2, 0], [2, 1, 0], [1]])
@@ -120,5 +120,5 @@ def test_diverging_networks_raise_an_error_that_names_the_learning_rate(name: st
 def test_loss_and_q_value_are_nan_before_a_rows_first_update(name: str) -> None:
     engine = engine_of(name, 2)
     engine.update(np.array([1]), batch_of(1, 3))
-    assert np.isnan(engine.last_loss()).tolist() == [True, False]
-    assert np.isnan(engine.last_q()).tolist() == [True, False]
+    assert np.isnan(engine.last.loss()).tolist() == [True, False]
+    assert np.isnan(engine.last.q()).tolist() == [True, False]

@@ -40,8 +40,8 @@ def with_a_known_game() -> GamesTrainer:
     learner = learner_of(BENT, SMALL)
     for _ in range(3):
         learner.take(play(learner.plan("game")))
-    assert learner.imagination is not None
-    assert learner.imagination.rules(0).known.all()
+    assert learner.practice.imagination is not None
+    assert learner.practice.imagination.rules(0).known.all()
     return learner
 
 
@@ -137,10 +137,10 @@ def test_first_episodes_of_several_games_try_different_actions_and_materials() -
 
 def test_simultaneous_episodes_probe_different_cells() -> None:
     learner = with_a_known_game()
-    assert learner.imagination is not None
+    assert learner.practice.imagination is not None
     unknown = {
         (int(x), int(y))
-        for x, y in np.argwhere(learner.imagination.beliefs(0).cells <= Belief.BELIEVED)
+        for x, y in np.argwhere(learner.practice.imagination.beliefs(0).cells <= Belief.BELIEVED)
         if y > 0  # no block lands on the near edge
     }
     probed = [cells_of(play(learner.plan(f"game {game}"))) & unknown for game in range(3)]

@@ -21,7 +21,7 @@ from mc_nested.learn.imagination.arena_step import (
     state_at,
     step,
 )
-from mc_nested.learn.imagination.beliefs import Belief, Beliefs, believe
+from mc_nested.learn.imagination.beliefs import Belief, Beliefs, believe, evidence_of
 from mc_nested.learn.imagination.first_tries import FirstTries
 from mc_nested.learn.imagination.learnt_rules import LearntRules
 from tests.learn.imagination.made_games import BENT, TRUE_MOVES, TRUE_PLACES
@@ -129,7 +129,9 @@ TRUE_RULES = LearntRules(
     np.zeros((5, 5), np.bool_),
     np.zeros(0, np.int64),
 )
-ARENA = imagined_arena(TRUE_RULES, believe(np.zeros((0, 9), np.int64), (0, 1), BENT.size, BENT.blocks))
+ARENA = imagined_arena(
+    TRUE_RULES, believe(evidence_of(np.zeros((0, 9), np.int64), (0, 1), BENT.size), (0, 1), BENT.blocks)
+)
 
 
 def tries_of(untried: int | None = None) -> FirstTries:

@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 from mc_nested.arena.action import Action, Cell
 from mc_nested.arrays import Int64s
-from mc_nested.learn.imagination.beliefs import FAR_FROM_PAYING, KNOWN_TO_PAY, Belief, Beliefs, believe
+from mc_nested.learn.imagination.beliefs import FAR_FROM_PAYING, KNOWN_TO_PAY, Belief, Beliefs, believe, evidence_of
 from mc_nested.learn.imagination.experience import RealStep
 
 SIZE = 5
@@ -22,7 +22,7 @@ def tries(*tried: tuple[Cell, bool]) -> Int64s:
 
 
 def of(*tried: tuple[Cell, bool], blocks: int = 3) -> Beliefs:
-    return believe(tries(*tried), AHEAD, SIZE, blocks)
+    return believe(evidence_of(tries(*tried), AHEAD, SIZE), AHEAD, blocks)
 
 
 def test_at_first_every_cell_is_unknown_and_every_reachable_cell_may_pay() -> None:
@@ -66,7 +66,7 @@ def test_cells_that_no_block_can_reach_are_not_believed_to_pay() -> None:
     ],
 )
 def test_the_cells_in_reach_depend_on_where_blocks_land(lands: Cell, unreached: set[Cell]) -> None:
-    pay = believe(tries(), lands, SIZE, 3).pay
+    pay = believe(evidence_of(tries(), lands, SIZE), lands, 3).pay
     assert {(int(x), int(y)) for x, y in np.argwhere(pay == 0.0)} == unreached
 
 
@@ -112,11 +112,11 @@ def test_the_later_of_two_outcomes_counts() -> None:
 def test_a_step_that_used_no_block_changes_no_belief() -> None:
     steps = tries(((2, 2), False))
     steps[:, 6] = steps[:, 2]
-    assert (believe(steps, AHEAD, SIZE, 3).cells == UNKNOWN).all()
+    assert (believe(evidence_of(steps, AHEAD, SIZE), AHEAD, 3).cells == UNKNOWN).all()
 
 
 def test_a_block_outside_the_arena_changes_no_belief() -> None:
-    assert (believe(tries(((2, 3), True)), (0, 3), SIZE, 3).cells == UNKNOWN).all()
+    assert (believe(evidence_of(tries(((2, 3), True)), (0, 3), SIZE), (0, 3), 3).cells == UNKNOWN).all()
 
 
 @given(
@@ -136,7 +136,7 @@ def test_pay_agrees_with_the_belief_about_every_cell(tried: list[tuple[Cell, boo
 
 def test_cells_probed_by_other_games_stay_unknown_and_are_taken_to_pay_nothing() -> None:
     beside = [(1, 2), (2, 2), (3, 2)]
-    found = believe(tries(((2, 3), True)), AHEAD, SIZE, 3, elsewhere=beside)
+    found = believe(evidence_of(tries(((2, 3), True)), AHEAD, SIZE), AHEAD, 3, elsewhere=beside)
     assert all(found.cells[cell] == UNKNOWN and found.pay[cell] == 0.0 for cell in beside)
     assert found.cells[1, 3] == BELIEVED
     assert found.pay[1, 3] == 1.0
@@ -145,18 +145,18 @@ def test_cells_probed_by_other_games_stay_unknown_and_are_taken_to_pay_nothing()
 
 def test_unknown_cells_may_pay_while_other_games_probe_all_cells_beside_a_paying_one() -> None:
     around = [(x, y) for x in (1, 2, 3) for y in (2, 3, 4) if (x, y) != (2, 3)]
-    found = believe(tries(((2, 3), True)), AHEAD, SIZE, 3, elsewhere=around)
+    found = believe(evidence_of(tries(((2, 3), True)), AHEAD, SIZE), AHEAD, 3, elsewhere=around)
     assert (found.cells != BELIEVED).all()
     assert found.pay[4, 4] == 1.0
 
 
 def test_tried_cells_stay_known_while_other_games_probe_them() -> None:
     tried = tries(((2, 3), True), ((1, 1), False))
-    found = believe(tried, AHEAD, SIZE, 3, elsewhere=[(2, 3), (1, 1)])
+    found = believe(evidence_of(tried, AHEAD, SIZE), AHEAD, 3, elsewhere=[(2, 3), (1, 1)])
     np.testing.assert_array_equal(found.pay, of(((2, 3), True), ((1, 1), False)).pay)
 
 
 def test_unknown_cells_are_probed_again_when_other_games_probe_all_of_them() -> None:
     every = [(x, y) for x in range(SIZE) for y in range(1, SIZE)]
-    found = believe(tries(((2, 3), True)), AHEAD, SIZE, 3, elsewhere=every)
+    found = believe(evidence_of(tries(((2, 3), True)), AHEAD, SIZE), AHEAD, 3, elsewhere=every)
     np.testing.assert_array_equal(found.pay, of(((2, 3), True)).pay)

@@ -4,7 +4,7 @@ import numpy as np
 
 from mc_nested.arena.action import Cell
 from mc_nested.arrays import Bools
-from mc_nested.learn.imagination.beliefs import Belief, Beliefs, believe
+from mc_nested.learn.imagination.beliefs import Belief, Beliefs, believe, evidence_of
 from mc_nested.learn.imagination.candidates import candidates
 from tests.learn.imagination.test_beliefs import AHEAD, SIZE, of, tries
 
@@ -59,7 +59,7 @@ def test_a_known_design_is_all_that_is_built() -> None:
 
 def test_where_everything_was_tried_and_too_little_pays_it_is_tried_again() -> None:
     every = [(cell, cell == (2, 3)) for cell in sorted(EVERY_CELL)]
-    beliefs = believe(tries(*every), AHEAD, SIZE, 2)
+    beliefs = believe(evidence_of(tries(*every), AHEAD, SIZE), AHEAD, 2)
     assert candidates(beliefs, buildable((2, 3)), START, 1) == EVERY_CELL - {(2, 3)}
     assert candidates(beliefs, buildable(), START, 1) == {(2, 3)}
 

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from mc_nested.learn.imagination.beliefs import Belief, believe
+from mc_nested.learn.imagination.beliefs import Belief, believe, evidence_of
 from mc_nested.learn.imagination.experience import Experience, RealStep
 from mc_nested.learn.imagination.known_arena import EpisodeBlocks, KnownArena, known_arena
 
@@ -18,7 +18,7 @@ def episode(experience: Experience, *blocks: tuple[int, int, int]) -> None:
 
 
 def known_in(experience: Experience, blocks: int) -> KnownArena:
-    return known_arena(experience, AHEAD, believe(experience.steps, AHEAD, 5, blocks))
+    return known_arena(experience, AHEAD, believe(evidence_of(experience.steps, AHEAD, 5), AHEAD, blocks))
 
 
 def test_a_cell_counts_as_new_once_and_then_as_built_or_wasted() -> None:

@@ -11,7 +11,7 @@ from mc_nested.arena.game import Following, Game, Outcome
 from mc_nested.arena.scenario import Scenario
 from mc_nested.arena.scenario_file import load_scenario
 from mc_nested.learn.imagination.arena_step import NOWHERE, ImaginedArena, cell_at, imagined_arena, index_of, step
-from mc_nested.learn.imagination.beliefs import believe
+from mc_nested.learn.imagination.beliefs import believe, evidence_of
 from mc_nested.learn.imagination.learnt_rules import learn_rules
 from sim.grid import GridGame
 from tests.arena.game_contract import BUMPS, check_following, check_game
@@ -45,7 +45,7 @@ def imagined(game: Game, scenario: Scenario, episodes: int) -> ImaginedGame:
     """Return the game that is learnt from random actions in another one."""
     seen = seen_at_random(game, scenario, episodes)
     rules = learn_rules(seen.steps, seen.first_of_episode, len(Action), scenario.size)
-    beliefs = believe(seen.steps, rules.lands, scenario.size, scenario.blocks)
+    beliefs = believe(evidence_of(seen.steps, rules.lands, scenario.size), rules.lands, scenario.blocks)
     return ImaginedGame(imagined_arena(rules, beliefs), scenario.start)
 
 

@@ -6,7 +6,7 @@ import pytest
 from mc_nested.arena.scenario import Scenario
 from mc_nested.arrays import Int64s
 from mc_nested.learn.agents import AGENT_SPECS, Agent
-from mc_nested.learn.imagination.beliefs import Belief, believe
+from mc_nested.learn.imagination.beliefs import Belief, believe, evidence_of
 from mc_nested.learn.preset import Preset, load_preset
 from mc_nested.learn.trainer import Trainer
 from sim.grid import GridVectorEnv
@@ -28,9 +28,9 @@ def steps_that_placed(cells: dict[tuple[int, int], int]) -> Int64s:
 
 def test_every_unknown_cell_pays_the_same_without_neighbours() -> None:
     steps = steps_that_placed({(2, 2): 1, (0, 4): 0})
-    with_them = believe(steps, LANDS, SIZE, BLOCKS)
+    with_them = believe(evidence_of(steps, LANDS, SIZE), LANDS, BLOCKS)
     assert with_them.pay[2, 3] > with_them.pay[4, 4]
-    without = believe(steps, LANDS, SIZE, BLOCKS, neighbours=False)
+    without = believe(evidence_of(steps, LANDS, SIZE), LANDS, BLOCKS, neighbours=False)
     unknown = without.cells == Belief.UNKNOWN
     assert not (without.cells == Belief.BELIEVED).any()
     assert set(without.pay[unknown][without.pay[unknown] > 0]) == {1.0}
@@ -38,7 +38,13 @@ def test_every_unknown_cell_pays_the_same_without_neighbours() -> None:
 
 
 def test_only_cells_known_to_pay_are_paid_without_optimism() -> None:
-    beliefs = believe(steps_that_placed({(2, 2): 1, (0, 4): 0}), LANDS, SIZE, BLOCKS, optimism=False, neighbours=False)
+    beliefs = believe(
+        evidence_of(steps_that_placed({(2, 2): 1, (0, 4): 0}), LANDS, SIZE),
+        LANDS,
+        BLOCKS,
+        optimism=False,
+        neighbours=False,
+    )
     assert beliefs.explores
     assert np.argwhere(beliefs.pay).tolist() == [[2, 2]]
     assert beliefs.most == 1.0

@@ -32,7 +32,7 @@ def test_designs_of_every_kind_are_drawn() -> None:
 
 def test_arenas_are_empty_or_hold_obstacles_and_often_the_near_rows_are_free() -> None:
     random = np.random.default_rng(2)
-    stands = [drawn_obstacles(random, 10) for _ in range(500)]
+    stands = [drawn_obstacles(random, 10, 50) for _ in range(500)]
     shares = np.array([each.mean() for each in stands])
     assert (shares == 0).mean() > 0.1
     assert (shares > 0.1).mean() > 0.3

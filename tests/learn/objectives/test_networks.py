@@ -7,10 +7,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from mc_nested.arrays import Bools
+from mc_nested.learn.dqn.states import NONE, WANTED
 from mc_nested.learn.dqn.torch_engine import objective_networks as by_torch
 from mc_nested.learn.dqn.torch_engine.layout import flat_of
-from mc_nested.learn.objectives.arenas import outside, plane_of_each, planes_of, side_for
-from mc_nested.learn.objectives.networks import NONE, OrderNetwork, ReachNetwork, spread
+from mc_nested.learn.objectives.arenas import order_planes, outside, plane_of_each, reach_planes, side_for
+from mc_nested.learn.objectives.networks import OrderNetwork, ReachNetwork
 
 
 def made(seed: int) -> tuple[by_torch.ReachModule, by_torch.OrderModule]:
@@ -37,12 +38,12 @@ def some_arenas(
 def test_both_main_agents_value_every_cell_alike(seed: int, size: int) -> None:
     _, network = made(seed)
     wanted, occupied, agents = some_arenas(seed, size)
-    planes = planes_of(wanted, occupied, agents)
+    planes, _ = order_planes(wanted, occupied, agents)
     with torch.no_grad():
         theirs = network(torch.from_numpy(planes.astype(np.float32))).numpy()
     ours = OrderNetwork(flat_of(network)).values(planes)
     np.testing.assert_allclose(ours.reshape(len(planes), -1), theirs, atol=1e-5, rtol=1e-5)
-    assert (ours[~wanted] == NONE).all()
+    assert (ours[~planes[:, WANTED]] == NONE).all()
 
 
 @settings(deadline=None, max_examples=25)
@@ -51,24 +52,11 @@ def test_both_nested_agents_value_every_action_alike(seed: int, size: int) -> No
     network, _ = made(seed)
     _, occupied, agents = some_arenas(seed, size)
     goals = np.random.default_rng(seed).integers(1, size + 1, agents.shape)
-    planes = planes_of(plane_of_each(goals, side_for(size)), occupied, agents)
+    planes = reach_planes(plane_of_each(goals, side_for(size)), occupied, agents)
     with torch.no_grad():
         theirs = network(torch.from_numpy(planes.astype(np.float32))).numpy()
     ours = ReachNetwork(flat_of(network))
     np.testing.assert_allclose(ours.values(ours.reaching(planes), agents), theirs, atol=1e-6, rtol=1e-4)
-
-
-def test_nearness_spreads_past_what_stands_and_a_cell_that_cant_be_reached_has_none() -> None:
-    passing = np.full((1, 5, 5), 0.5, np.float32)
-    passing[0, 1, :4] = 0.0  # a wall with a gap at its far end
-    passing[0, :, 4] = [0.5, 0.5, 0.5, 0.0, 0.5]
-    sources = np.zeros((1, 5, 5), np.float32)
-    sources[0, 0, 0] = 1.0
-    near = spread(sources, passing)[0]
-    assert near[0, 4] == 0.5**4
-    assert near[2, 4] == 0.5**6  # round the wall, not through it
-    assert near[2, 2] == 0.5**8
-    assert near[1, 0] == near[3, 4] == 0.0
 
 
 def test_a_window_of_the_near_cells_is_the_same_wherever_the_arena_ends() -> None:
@@ -78,7 +66,7 @@ def test_a_window_of_the_near_cells_is_the_same_wherever_the_arena_ends() -> Non
     for side in (7, 12, 34):
         occupied = outside(5, side)[None]
         own = ReachNetwork(flat_of(network))
-        values.append(own.values(own.reaching(planes_of(plane_of_each(goal, side), occupied, agent)), agent))
+        values.append(own.values(own.reaching(reach_planes(plane_of_each(goal, side), occupied, agent)), agent))
     np.testing.assert_allclose(values[0], values[1], rtol=1e-4)
     np.testing.assert_allclose(values[0], values[2], rtol=1e-4)
 

@@ -54,26 +54,26 @@ def test_a_training_from_an_earlier_run_knows_the_same_design_from_the_beginning
     assert summary["episodes_to_optimum"] == [0]
     assert summary["played_to_optimum"][0]["episodes"] == 1
     trainer = begun(files, "small", tmp_path / "begun")
-    assert trainer.imagination is not None
-    assert trainer.imagination.known_arena(0).known_to_pay == SMALL.blocks
-    assert trainer.imagination.episodes(0) == 0
+    assert trainer.practice.imagination is not None
+    assert trainer.practice.imagination.known_arena(0).known_to_pay == SMALL.blocks
+    assert trainer.practice.imagination.episodes(0) == 0
 
 
 def test_a_training_on_another_design_keeps_moves_and_materials_but_no_cells(files: Path, tmp_path: Path) -> None:
     trainer = begun(files, "beside", tmp_path / "begun")
-    assert trainer.imagination is not None
+    assert trainer.practice.imagination is not None
     earlier = earlier_run(files / "first", RunFolder.open(tmp_path / "begun"))
     assert earlier.game is not None
-    untried = trainer.imagination.state()["untried"][0]
+    untried = trainer.practice.imagination.state()["untried"][0]
     assert untried.tolist() == earlier.game["untried"].tolist()
     assert untried.sum() <= 1, "no first tries of what was tried"
-    rules, seen = trainer.imagination.rules(0), trainer.imagination.known_arena(0)
+    rules, seen = trainer.practice.imagination.rules(0), trainer.practice.imagination.known_arena(0)
     assert rules.known.tolist() == (~untried).tolist()
     steps, first_of_episode = earlier.game["seen.steps"], earlier.game["seen.first_of_episode"]
     learnt = learn_rules(steps, first_of_episode, len(untried), BESIDE.size)
     assert (rules.lands, rules.moves.tolist()) == (learnt.lands, learnt.moves.tolist())
     assert np.isin(seen.cells, (Belief.UNKNOWN, Belief.BELIEVED)).all()
-    assert len(trainer.imagination.state()["0.extras"]) > 0
+    assert len(trainer.practice.imagination.state()["0.extras"]) > 0
     while not (trainer.episode_rows or trainer.evaluation_rows):
         trainer.tick()
     assert not trainer.evaluation_rows, "a policy of another design isn't worth an episode"
@@ -94,9 +94,9 @@ def test_materials_that_differ_from_the_earlier_runs_are_tried_anew(files: Path,
     other = (files / "small.toml").read_text("utf-8").replace("10.0", "3.0")
     (files / "poorer.toml").write_text(other, "utf-8")
     trainer = begun(files, "poorer", tmp_path / "begun")
-    assert trainer.imagination is not None
-    assert len(trainer.imagination.state()["0.extras"]) == 0
-    assert trainer.imagination.known_arena(0).known_to_pay == SMALL.blocks
+    assert trainer.practice.imagination is not None
+    assert len(trainer.practice.imagination.state()["0.extras"]) == 0
+    assert trainer.practice.imagination.known_arena(0).known_to_pay == SMALL.blocks
 
 
 def test_an_earlier_run_without_imagination_gives_its_policy_and_no_learnt_game(tmp_path: Path) -> None:

@@ -14,8 +14,7 @@ from mc_nested.learn.episode_log import EpisodeRow, EvaluationRow
 from mc_nested.learn.runs.checkpoint import unsealed
 from mc_nested.learn.runs.folder_lock import folder_lock
 from mc_nested.learn.runs.run_config import RunConfig
-from mc_nested.learn.runs.run_folder import RunFolder
-from mc_nested.learn.runs.summary import summarise
+from mc_nested.learn.runs.run_folder import RunFolder, summarise
 from mc_nested.learn.trainer import Trainer
 from sim.grid import GridVectorEnv
 from tests.cli.running import table
@@ -142,7 +141,7 @@ def test_a_full_disk_is_reported_and_leaves_no_half_begun_checkpoint(
     with pytest.raises(RunError, match="make room and begin again"):
         folder.save_before_all(trainer_in(folder))
     assert not (tmp_path / "run" / "checkpoint").exists()
-    with pytest.raises(RunError, match="no space left on the disk: name another folder, or make room"):
+    with pytest.raises(RunError, match=r"no space left on the disk\): name another folder, or make room"):
         folder.begin()
     with pytest.raises(RunError, match="make room, then mc-nested train --resume"):
         folder.save(trainer_in(folder), 0.0)

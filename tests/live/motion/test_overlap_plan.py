@@ -10,7 +10,7 @@ from mc_nested.arena.action import Cell
 from mc_nested.arena.rules import front_of
 from mc_nested.live.model.coordinates import GroundVector
 from mc_nested.live.model.kinematics import INERTIA, PUSH
-from mc_nested.live.motion.overlap_plan import Change, Leg, Plan, Planner, Surroundings, Walk
+from mc_nested.live.motion.overlap_plan import KeyChange, Leg, Planner, Surroundings, Walk, WalkPlan
 from mc_nested.live.motion.walk_tracker import AT_REST, CoastingState
 from sim.client.game.edition import Edition
 from sim.client.game.game import VirtualGame
@@ -47,14 +47,16 @@ def standing(right: float = 0.0, forward: float = 0.0) -> Walk:
     return Walk(0, CoastingState(GroundVector(7 + right, 7 + forward), AT_REST))
 
 
-def planned(one: str, other: str | None, walk: Walk | None = None, *solid: Cell, no_forward: int = 0) -> Plan | None:
+def planned(
+    one: str, other: str | None, walk: Walk | None = None, *solid: Cell, no_forward: int = 0
+) -> WalkPlan | None:
     first = leg(one)
     following = after(first, other) if other else None
     return planner(*solid).plan(walk or standing(), first, 2, 2, following, no_forward)
 
 
 def test_a_walk_is_the_recurrence_of_the_facts() -> None:
-    walk = standing().also(Change(0, GroundVector(0.0, PUSH)), Change(2, AT_REST))
+    walk = standing().also(KeyChange(0, GroundVector(0.0, PUSH)), KeyChange(2, AT_REST))
 
     one, two = PUSH, PUSH + PUSH * INERTIA
     positions = walk.positions(4)

@@ -6,7 +6,7 @@ import pytest
 
 from calibration.font.sources import font_of_recording
 from calibration.installation.folders import System
-from mc_nested.errors import ProfileError, RecordingError
+from mc_nested.errors import RecordingError
 from mc_nested.live.recording.call_encoder import KeptPicture
 from mc_nested.live.recording.cut import cut, trim
 from mc_nested.live.recording.format import FORMAT
@@ -205,8 +205,3 @@ def test_recording_of_another_format_is_refused_in_one_line(facts: dict[str, str
     for refused in (lambda: replay(file, FONT), lambda: font_of_recording(file, System("linux", tmp_path, {}))):
         with pytest.raises(RecordingError, match=r"other\.mcap: is of another version of mc-nested: .* record the run"):
             refused()
-
-
-def test_a_replay_without_a_font_is_refused(recording: Path) -> None:
-    with pytest.raises(ProfileError, match=r"screen\.font is missing"):
-        replay(recording)

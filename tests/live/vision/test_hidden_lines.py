@@ -12,7 +12,7 @@ from mc_nested.live.vision.font import font_of
 from mc_nested.live.vision.glyph_grid import GlyphGrid
 from mc_nested.live.vision.hidden_lines import may_hide_lines
 from mc_nested.live.vision.layout import Scales
-from sim.client.drawing.f3_cases import frames
+from scripts.benches.f3_cases import frames
 from sim.client.drawing.letters import drawn_atlas
 from sim.client.drawing.painter import WORLDS, Painter
 from sim.client.game.edition import Layout

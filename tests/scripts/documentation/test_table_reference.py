@@ -16,6 +16,11 @@ class Below(BaseModel):
 
     speed: float = Field(default=0.5, gt=0, le=60, description="how fast")
     corner: tuple[int, int] = Field(description="where, as x, y")
+    deeper: "Deeper" = Field(description="what lies deeper")
+
+
+class Deeper(BaseModel):
+    depth: int
 
 
 class Whole(BaseModel):
@@ -38,6 +43,7 @@ def test_keys_are_listed_with_their_type_limits_and_default() -> None:
     assert "## [below]\n\nWhat lies `below`.\n\n| key |" in page
     assert "## [maybe]\n\nWhat lies `below`.\n\nThis table may be left out.\n\n| key |" in page
     assert "| `speed` | number, above 0 and up to 60 | `0.5` | How fast. |" in page
+    assert "| `deeper` | a table of the keys of [deeper] | must be there | What lies deeper. |" in page
     assert "| `corner` | list of 2: whole number | must be there | Where, as x, y. |" in page
 
 

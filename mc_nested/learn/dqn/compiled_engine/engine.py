@@ -77,14 +77,14 @@ class CompiledEngine:
         self._first_moment, self._second_moment = np.zeros_like(online), np.zeros_like(online)
         tabulated = table_pays(space.count, rule.batch, rule.target_period)
         self._target_values = TargetValues(space, sizes, self.target, tabulated)
-        self._last = LastBatches(len(online), rule)
+        self.last = LastBatches(len(online), rule)
         self._every_row = np.arange(len(online))
         self._widths = np.array(sizes, dtype=np.int64)
         self._acting = hidden_for(sizes, 1)
         self._parts = tuple(space.parts)
         self._networks = self.online, self._first_moment, self._second_moment, self.updates
         self._learning = tuple(hidden_for(sizes, rule.batch) for _ in _Workspace._fields)
-        self._estimates = self._last.values, self._last.errors
+        self._estimates = self.last.values, self.last.errors
 
     @property
     def form(self) -> NetworkForm:
@@ -115,7 +115,7 @@ class CompiledEngine:
             due = rows[self.updates[rows] % self.rule.target_period == 0]
             self.target[due] = self.online[due]
             self._target_values.renew(due, self.target[due])
-        return self._last.errors.take(rows, axis=0)  # a third of the time of an index of many rows
+        return self.last.errors.take(rows, axis=0)  # a third of the time of an index of many rows
 
     def row(self, row: int) -> tuple[Float32s, Float32s, Float32s, Float32s, Int64s]:
         """Return a row's online and target network, Adam's moments, (parameters,) each, and updates (1,), uncopied.
@@ -129,12 +129,6 @@ class CompiledEngine:
         """Raise DivergedError if a parameter of that row's online network, or of what it is to become, is no number."""
         if not np.isfinite(self.online[row] if online is None else online).all():
             raise diverged(self.rule, self.updates[row : row + 1])
-
-    def last_loss(self) -> Float32s:
-        return self._last.loss()
-
-    def last_q(self) -> Float32s:
-        return self._last.q()
 
     def state(self) -> dict[str, NDArray[Any]]:
         return {

@@ -1,4 +1,8 @@
-"""Double deep Q-learning (paper, section 2.4) for rows of torch networks."""
+"""Double deep Q-learning (paper, section 2.4) for rows of torch networks.
+
+By hand: the slopes of the loss in the values Q(s, a), and Adam's step for rows of parameters. Autograd does the rest:
+it begins at the network's output. Adam (Kingma and Ba, 2015) is as the compiled engine's.
+"""
 
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -12,11 +16,11 @@ from torch import Tensor, nn
 
 from mc_nested.arrays import Arrays, Float32s, Int64s
 from mc_nested.errors import PresetError
-from mc_nested.learn.dqn.engine import Batch, LastBatches, NetworkForm, UpdateRule, diverged
+from mc_nested.learn.dqn.compiled_engine.adam import BETA_1, BETA_2, EPSILON
+from mc_nested.learn.dqn.engine import MLP, Batch, LastBatches, NetworkForm, UpdateRule, diverged
 from mc_nested.learn.dqn.states import States
-from mc_nested.learn.dqn.torch_engine.networks import MLP, input_shape, inputs_of
+from mc_nested.learn.dqn.torch_engine.networks import input_shape, inputs_of
 from mc_nested.learn.dqn.torch_engine.rows import NetworkRows, can_be_stacked
-from mc_nested.learn.dqn.torch_engine.update import adam_step, huber_slopes, margin_slopes
 
 
 class TorchEngine:
@@ -58,7 +62,7 @@ class TorchEngine:
             stacks = stacks and can_be_stacked(tried, input_shape(states))
             self._values = NetworkRows(lambda: make().to(device), self._online, stacks)
             self._target_values = NetworkRows(lambda: make().to(device), self._target, stacks)
-        self._last = LastBatches(len(online), rule)
+        self.last = LastBatches(len(online), rule)
         self._every_row = np.arange(len(online))
 
     @property
@@ -96,7 +100,7 @@ class TorchEngine:
                     slopes += margin_slopes(values, taken, self._tensor(batch.imitated), self.rule)
             self._step(rows, self._values.gradient(values, slopes, leaves, len(rows)))
             found = _array(errors)
-            self._last.values[rows], self._last.errors[rows] = _array(chosen), found
+            self.last.values[rows], self.last.errors[rows] = _array(chosen), found
         due = rows[self.updates[rows] % self.rule.target_period == 0]
         if len(due):
             self._target[due] = self._online[due]
@@ -139,12 +143,6 @@ class TorchEngine:
         for own in (self._online, self._target):
             own.copy_(torch.from_numpy(online))
 
-    def last_loss(self) -> Float32s:
-        return self._last.loss()
-
-    def last_q(self) -> Float32s:
-        return self._last.q()
-
     def state(self) -> Arrays:
         return {**{name: _array(own) for name, own in self._tensors().items()}, "updates": self.updates}
 
@@ -165,6 +163,45 @@ class TorchEngine:
 
     def _tensor(self, array: NDArray[Any]) -> Tensor:
         return torch.from_numpy(array).to(self._device)
+
+
+def huber_slopes(values: Tensor, taken: Tensor, errors: Tensor, weights: Tensor, rule: UpdateRule) -> Tensor:
+    """Return the slope of each value (k, batch, actions) in the mean Huber loss: the error, at most δ either way.
+
+    ``taken`` (k, batch, 1) are the actions; ``errors`` (k, batch) are Q(s, a) less its goal, times ``weights``.
+    """
+    own = errors.clamp(-rule.huber_delta, rule.huber_delta).mul_(weights).mul_(1 / rule.batch)
+    return torch.zeros_like(values).scatter_(-1, taken, own.unsqueeze(-1))
+
+
+def margin_slopes(values: Tensor, taken: Tensor, imitated: Tensor, rule: UpdateRule) -> Tensor:
+    """Return the slope of each value (k, batch, actions) in the mean large-margin loss of what is imitated (k, batch).
+
+    The loss (self_imitation.py) rises with the rival's value, and falls with that of the action that was taken; where
+    they are the same, it is flat.
+    """
+    share = (imitated / rule.batch).unsqueeze(-1)
+    rival = (values + rule.margin).scatter_(-1, taken, values.gather(-1, taken)).argmax(-1, keepdim=True)
+    return torch.zeros_like(values).scatter_add_(-1, rival, share).scatter_add_(-1, taken, -share)
+
+
+def adam_step(parameters: Tensor, first: Tensor, second: Tensor, gradient: Tensor, steps: Int64s, rate: float) -> None:
+    """Take one step by the gradient, in place; all (rows, parameters), but ``steps`` (rows,), which count this one."""
+    first.lerp_(gradient, 1 - BETA_1)
+    second.mul_(BETA_2).addcmul_(gradient, gradient, value=1 - BETA_2)
+    if (steps == steps[0]).all():
+        scale, epsilon = _scales(int(steps[0]), rate)
+        parameters.addcdiv_(first, second.sqrt().add_(epsilon), value=-scale)
+        return
+    scales = np.array([_scales(int(own), rate) for own in steps], np.float32)
+    own_scale, own_epsilon = torch.from_numpy(scales).to(parameters.device).T[..., None]
+    parameters.addcdiv_(own_scale * first, second.sqrt().add_(own_epsilon), value=-1)
+
+
+def _scales(step: int, rate: float) -> tuple[float, float]:
+    """Return the rate and ε with the corrections of both moments in them."""
+    correction = math.sqrt(1 - BETA_2**step)
+    return rate * correction / (1 - BETA_1**step), EPSILON * correction
 
 
 def device_named(name: str) -> torch.device:

@@ -21,12 +21,10 @@ from torch.nn.functional import embedding
 from mc_nested.arrays import Float32s, Int64s
 from mc_nested.errors import PresetError
 from mc_nested.learn.dqn.compiled_engine.networks import Sizes, initial_parameters
-from mc_nested.learn.dqn.engine import NetworkForm
-from mc_nested.learn.dqn.states import PackedPlanes, States, StateSpace
+from mc_nested.learn.dqn.engine import CNN, MLP, ORDER, REACH, NetworkForm
+from mc_nested.learn.dqn.states import PlaneStates, States, StateSpace, numbered
 from mc_nested.learn.dqn.torch_engine.layout import flat_of
 from mc_nested.learn.dqn.torch_engine.objective_networks import OrderModule, ReachModule
-
-MLP, CNN, REACH, ORDER = "mlp", "cnn", "reach", "order"
 
 LARGEST_SIDE_OF_SMALL = 40
 """Planes of more cells a side are pictures: they get the deep Q-network's layers for pictures (Mnih et al., 2013)."""
@@ -165,16 +163,14 @@ Inputs = Callable[[NDArray[Any], Int64s], Tensor]
 
 def input_shape(states: States) -> tuple[int, ...]:
     """Return the shape of one state as a network takes it."""
-    if isinstance(states, StateSpace):
-        return (states.inputs,)
-    return states.planes if isinstance(states, PackedPlanes) else states.shape
+    return states.planes if isinstance(states, PlaneStates) else (numbered(states).inputs,)
 
 
 def inputs_of(states: States, device: torch.device) -> Inputs:
     """Return what turns those states into a network's inputs on that device."""
-    if isinstance(states, StateSpace):
-        return _features(states, device)
-    if isinstance(states, PackedPlanes):
+    if not isinstance(states, PlaneStates):
+        return _features(numbered(states), device)
+    if states.are_bits:
         return _bits(states.planes, device)
     return lambda kept, _: torch.from_numpy(kept).to(device).float().mul_(1 / 255)
 

@@ -1,41 +1,42 @@
 """The networks of the agents with objectives, for arenas of any size: how one is reached, and which comes next.
 
-What is near, past all that stands in the way, spreads from cell to cell (value propagation: Nardelli et al., 2018): how
-well a cell is passed is learnt. All other layers see a cell's surroundings, so the same weights do for every arena.
+What is near, past all that stands in the way, spreads from cell to cell (learn/dqn/nearness.py): how well a cell
+is passed is learnt. All other layers see a cell's surroundings, so the same weights do for every arena.
 learn/objectives/networks.py computes the same without torch.
 """
 
-import math
+from typing import Any
 
 import torch
 from torch import Tensor, nn
-from torch.nn.functional import pad
+from torch.nn.functional import max_pool2d, pad
 
-from mc_nested.learn.dqn.states import AGENT, OCCUPIED, WANTED
+from mc_nested.learn.dqn import nearness
+from mc_nested.learn.dqn.nearness import SMALL, TINY
+from mc_nested.learn.dqn.states import AGENT, MANY, NONE, OCCUPIED, ORDER_PLANES, WANTED
 
-SWEEPS_A_CELL = 1.5
-"""Sweeps for each cell of a side: a way past what stands is longer than straight on."""
 
-SWEEPS_LEARNT_FROM = 2
-"""The last ones: what they have come to no longer changes, so its slope is that of a sweep or two."""
+class Spread(torch.autograd.Function):
+    """``nearness.spread`` with its slopes; computed by the processor wherever the tensors are."""
 
-NONE = -1e6
-"""The value of a cell that isn't to be built."""
+    @staticmethod
+    def forward(ctx: Any, sources: Tensor, passing: Tensor) -> Tensor:
+        near, via = nearness.spread(sources.detach().cpu().numpy(), passing.detach().cpu().numpy())
+        ctx.kept = passing.detach().cpu().numpy(), near, via
+        return torch.from_numpy(near).to(sources.device)
 
-SMALL = 1e-6
-"""Added before a logarithm."""
+    @staticmethod
+    def backward(ctx: Any, *of_near: Tensor) -> tuple[Tensor, Tensor]:
+        (slope,) = of_near
+        passing, near, via = ctx.kept
+        found = nearness.slopes(passing, near, via, slope.cpu().numpy())
+        of_sources, of_passing = (torch.from_numpy(each).to(slope.device) for each in found)
+        return of_sources, of_passing
 
 
 def spread(sources: Tensor, passing: Tensor) -> Tensor:
-    """Return how near each cell (B, …, side, side) is to the sources, by how well one passes (B, …, side, side)."""
-    sweeps = math.ceil(SWEEPS_A_CELL * sources.shape[-1])
-    near = sources
-    for sweep in range(sweeps):
-        with torch.set_grad_enabled(torch.is_grad_enabled() and sweep >= sweeps - SWEEPS_LEARNT_FROM):
-            wide = pad(near, (1, 1, 1, 1))
-            across = torch.maximum(wide[..., 2:, 1:-1], wide[..., :-2, 1:-1])
-            along = torch.maximum(wide[..., 1:-1, 2:], wide[..., 1:-1, :-2])
-            near = torch.maximum(sources, passing * torch.maximum(across, along))
+    """Return how near each cell (B, side, side) is to the sources, by how well one passes each (B, side, side)."""
+    near: Tensor = Spread.apply(sources.contiguous(), passing.contiguous())  # type: ignore[no-untyped-call]  # torch's
     return near
 
 
@@ -67,8 +68,8 @@ def places_of(planes: Tensor) -> tuple[Tensor, Tensor, Tensor]:
 class ReachModule(nn.Module):
     """The nested agent's: from planes (B, 3, side, side) the value of each action (B, actions).
 
-    How near each cell is to where the objective can be placed from spreads through the arena. Dense layers see that
-    around the agent, as shares of the highest there, and what stands there.
+    How near each cell is to where the objective can be placed from, which is beside it, spreads through the arena.
+    Dense layers see that around the agent, as shares of the highest there, and what stands there.
     """
 
     WINDOW, NEAR = 2, 1
@@ -84,20 +85,21 @@ class ReachModule(nn.Module):
 
     def forward(self, planes: Tensor) -> Tensor:
         maps = torch.sigmoid(self.maps(torch.relu(self.seen(planes[:, :AGENT]))))
-        near = spread(maps[:, 1], maps[:, 0])
+        beside = max_pool2d(planes[:, WANTED : WANTED + 1], 3, 1, 1)[:, 0]
+        near = spread(maps[:, 1] * beside, maps[:, 0] * (1 - planes[:, OCCUPIED]))
         agents = places_of(planes)
         around_agent = around(near[:, None], agents, self.NEAR)
-        highest = around_agent.amax(1, keepdim=True)
+        highest = around_agent.amax(1, keepdim=True).clamp_min(TINY)
         batch, x, y = agents
         wide = framed_wide(planes[:, :AGENT], self.WINDOW)
         window = around(wide, (batch, x + self.WINDOW, y + self.WINDOW), self.WINDOW)
-        hidden = torch.relu(self.first(torch.cat((around_agent / (highest + SMALL**2), window), 1)))
+        hidden = torch.relu(self.first(torch.cat((around_agent / highest, window), 1)))
         values: Tensor = highest * self.last(torch.relu(self.second(hidden)))
         return values
 
 
 class OrderModule(nn.Module):
-    """The main agent's: from planes (B, 3, side, side) the value of each cell as the next one (B, side * side).
+    """The main agent's: from planes (B, ORDER_PLANES, side, side) each cell's value as the next one (B, side * side).
 
     How near each cell is to the agent spreads twice: past what stands; and past what is still to be built, too. Cells
     that aren't to be built have the value NONE; so dense layers look at the others alone.
@@ -108,11 +110,11 @@ class OrderModule(nn.Module):
     def __init__(self, channels: int = 12, hidden: int = 96) -> None:
         super().__init__()
         self.passing = nn.Conv2d(2, 2, 1)
-        self.seen = nn.Conv2d(9, channels, 3, padding=1)
+        self.seen = nn.Conv2d(ORDER_PLANES + 6, channels, 3, padding=1)
         self.farther = nn.Conv2d(channels, channels, 3, padding=2, dilation=2)
         self.farthest = nn.Conv2d(channels, channels, 3, padding=4, dilation=4)
         self.axes = nn.Conv2d(4 * channels, channels, 1)
-        self.first = nn.Linear(3 * 25 + 4 * 9 + 5 * channels + 4, hidden)
+        self.first = nn.Linear(ORDER_PLANES * 25 + 4 * 9 + 5 * channels + 5, hidden)
         self.second = nn.Linear(hidden, hidden)
         self.last = nn.Linear(hidden, 1)
         # They begin where they should end: a block is in the way.
@@ -120,9 +122,10 @@ class OrderModule(nn.Module):
         self.passing.bias = nn.Parameter(torch.full((2,), 2.0))
 
     def forward(self, planes: Tensor) -> Tensor:
-        agents = planes[:, AGENT:].expand(-1, 2, -1, -1)
+        agents = planes[:, AGENT : AGENT + 1].expand(-1, 2, -1, -1)
         # A block is placed from the cell before it.
-        near = spread(agents, torch.sigmoid(self.passing(planes[:, :AGENT]))).roll(1, 3)
+        passing = torch.sigmoid(self.passing(planes[:, :AGENT]))
+        near = spread(agents.flatten(0, 1), passing.flatten(0, 1)).view_as(agents).roll(1, 3)
         maps = torch.cat((near, -torch.log(near + SMALL) / 4), 1)
         across, along = self._away(planes)
         seen = torch.relu(self.seen(torch.cat((planes, maps, across, along), 1)))
@@ -134,7 +137,8 @@ class OrderModule(nn.Module):
         values = torch.full((len(planes), *planes.shape[2:]), NONE, device=planes.device)
         window = around(wide, (batch, x + self.WINDOW, y + self.WINDOW), self.WINDOW)
         away = torch.stack((across[batch, 0, x, y], along[batch, 0, x, y]), 1)
-        of_cells = (window, around(maps, (batch, x, y), self.NEAR), cross(seen, (batch, x, y)), away, away.abs())
+        left = planes[:, WANTED].sum((1, 2))[batch, None] / MANY
+        of_cells = (window, around(maps, (batch, x, y), self.NEAR), cross(seen, (batch, x, y)), away, away.abs(), left)
         hidden = torch.relu(self.second(torch.relu(self.first(torch.cat(of_cells, 1)))))
         return values.index_put((batch, x, y), self.last(hidden)[:, 0]).flatten(1)
 

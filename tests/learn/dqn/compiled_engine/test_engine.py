@@ -156,11 +156,11 @@ def test_each_row_reports_the_loss_and_q_value_of_its_last_update() -> None:
     states, actions = batch.states[0], batch.actions
     own = engine.q_values(np.tile(states[0], 2)[:2] * 0 + states[0, 0])[1, actions[0, 0]]
     errors = engine.update(np.array([1]), batch)
-    assert np.isnan(engine.last_loss()[0])
-    assert np.isnan(engine.last_q()[0])
+    assert np.isnan(engine.last.loss()[0])
+    assert np.isnan(engine.last.q()[0])
     size = np.abs(errors[0])
-    assert engine.last_loss()[1] == pytest.approx(np.where(size <= 1, size**2 / 2, size - 0.5).mean(), rel=1e-5)
-    assert engine._last.values[1, 0] == pytest.approx(own, rel=1e-4, abs=1e-6)
+    assert engine.last.loss()[1] == pytest.approx(np.where(size <= 1, size**2 / 2, size - 0.5).mean(), rel=1e-5)
+    assert engine.last.values[1, 0] == pytest.approx(own, rel=1e-4, abs=1e-6)
 
 
 @pytest.mark.parametrize("value", [np.nan, np.inf, -np.inf])

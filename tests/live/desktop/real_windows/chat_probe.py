@@ -5,10 +5,12 @@ usage: chat_probe.py FONT LINE. A process of its own, since pyautogui keeps to t
 
 import sys
 import time
+from contextlib import ExitStack
 
 from mc_nested.errors import McNestedError
-from mc_nested.live.connection import connect
+from mc_nested.live.connection import GameConnection
 from mc_nested.live.desktop import open_desktop
+from mc_nested.live.input.input_controller import InputController
 from mc_nested.live.menus.chat import Chat
 from mc_nested.live.menus.wait_for_player import wait_until_standing_still
 from mc_nested.live.profile.tables import Profile, ScreenTable
@@ -18,7 +20,10 @@ PATIENCE_S = 20.0
 
 def main(font: str, line: str) -> None:
     profile = Profile(screen=ScreenTable(font=font))
-    with open_desktop(profile.window.title) as devices, connect(profile, devices) as connection:
+    with ExitStack() as opened:
+        devices = opened.enter_context(open_desktop(profile.window.title))
+        unread = GameConnection(devices, InputController(devices, profile.input))
+        connection = opened.enter_context(unread.for_profile(profile))
         end = time.monotonic() + PATIENCE_S
         while not devices.display.is_in_front() and time.monotonic() < end:
             time.sleep(0.1)

@@ -3,7 +3,7 @@ from itertools import islice
 import numpy as np
 
 from mc_nested.live.model.reading import Reading, Target
-from sim.client.drawing.f3_cases import expected, frames, random_screen
+from scripts.benches.f3_cases import expected, frames, random_screen
 from sim.client.game.f3_screen import F3Screen
 from sim.client.game.f3_text import LAYOUTS
 from tests.sim.client.playing import FONT

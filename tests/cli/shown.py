@@ -1,0 +1,43 @@
+"""The cells that the agent is after, as a verb shows them: in the arena, in a view and in a film."""
+
+from typing import NamedTuple
+
+import pytest
+
+from mc_nested.arena.action import Cell
+from mc_nested.arena.scenario import Scenario
+from mc_nested.report import terminal
+from mc_nested.report.filmed_game import FilmedGame
+from mc_nested.view.board import Board
+
+
+class Shown(NamedTuple):
+    """The cells that were drawn in the terminal, published for a view, and framed in a film."""
+
+    drawn: list[Cell | None]
+    published: list[Cell | None]
+    filmed: list[Cell | None]
+
+
+def objectives_shown(monkeypatch: pytest.MonkeyPatch) -> Shown:
+    """Return what is shown from here on."""
+    shown = Shown([], [], [])
+    view, show, act = terminal.arena_view, Board.show, FilmedGame.act
+
+    def arena_view(scenario: Scenario, agent: Cell, placed: frozenset[Cell], objective: Cell | None) -> object:
+        shown.drawn.append(objective)
+        return view(scenario, agent, placed, objective)
+
+    def board_show(board: Board, **fields: object) -> None:
+        if "arena" in fields:
+            shown.published.append(fields["arena"].objective)  # type: ignore[attr-defined]  # an ArenaSeen
+        show(board, **fields)
+
+    def filmed_act(game: FilmedGame, *asked: object) -> object:
+        shown.filmed.append(game.objective)
+        return act(game, *asked)  # type: ignore[arg-type]  # what it is asked for
+
+    monkeypatch.setattr("mc_nested.cli.watching.arena_view", arena_view)
+    monkeypatch.setattr(Board, "show", board_show)
+    monkeypatch.setattr(FilmedGame, "act", filmed_act)
+    return shown
