@@ -1,7 +1,7 @@
 """Draws the pictures of the documentation that show a game, and README's film.
 
     python scripts/draw.py rehearsal [OUT.png]                           the rehearsal window: the diamond, half built
-    python scripts/draw.py film [OUT.gif|OUT.mp4] [--scenario zigzag]    the agent builds in the rehearsal window
+    python scripts/draw.py film [OUT.gif|OUT.mp4] [--scenario diamond]    the agent builds in the rehearsal window
     python scripts/draw.py view [FOLDER] [--seconds 45]                  the live view, and the calibration report
     python scripts/draw.py overlap [OUT.png]                             actions that wait, and that overlap
 
@@ -70,7 +70,7 @@ def main() -> int:
     parsers = {name: names.add_parser(name) for name in pictures}
     for name, picture in pictures.items():
         parsers[name].add_argument("out", nargs="?", type=Path, default=ROOT / "scripts" / picture)
-    parsers["film"].add_argument("--scenario", default="zigzag")
+    parsers["film"].add_argument("--scenario", default="diamond")
     parsers["view"].add_argument("--seconds", type=float, default=45.0)
     options = parser.parse_args()
     try:
