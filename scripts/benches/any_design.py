@@ -104,6 +104,16 @@ def trained(run: Path) -> tuple[Weights, Sees]:
     return Weights(networks["main"][0], networks["low"][0]), rule.nested_sees
 
 
+def figures_of(shares: Sequence[float], failed: list[str]) -> Judged:
+    """Return the figures of designs built whole, in these shares of the scripted builder's steps, and of the others."""
+    return {
+        "whole": len(shares),
+        "of": len(shares) + len(failed),
+        "steps_against_the_builder": round(float(np.median(shares)), 3) if shares else math.inf,
+        "failed": failed,
+    }
+
+
 def judged(name: str, scenarios: Sequence[Scenario], agent_for: Callable[[Scenario], ObjectiveAgent]) -> Judged:
     """Return how many of those designs are built whole, and in how many of the scripted builder's steps."""
     shares, failed = [], []
@@ -113,12 +123,7 @@ def judged(name: str, scenarios: Sequence[Scenario], agent_for: Callable[[Scenar
             shares.append(steps / len(build(scenario)))
         else:
             failed.append(f"{scenario.name} {len(placed & scenario.design)} of {scenario.blocks}")
-    return {
-        "whole": len(shares),
-        "of": len(scenarios),
-        "steps_against_the_builder": round(float(np.median(shares)), 3) if shares else math.inf,
-        "failed": failed,
-    }
+    return figures_of(shares, failed)
 
 
 def built_in_the_window(scenarios: Sequence[Scenario]) -> Judged:
@@ -145,12 +150,7 @@ def built_in_the_window(scenarios: Sequence[Scenario]) -> Judged:
             else:
                 wrong = len(stands.keys() - wanted)
                 failed.append(f"{scenario.name} {found['built']} of {scenario.blocks}, {wrong} elsewhere")
-    return {
-        "whole": len(shares),
-        "of": len(scenarios),
-        "steps_against_the_builder": round(float(np.median(shares)), 3) if shares else math.inf,
-        "failed": failed,
-    }
+    return figures_of(shares, failed)
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:

@@ -6,7 +6,10 @@ from pathlib import Path
 import pytest
 import tomlkit
 
+import sim.worlds
+from mc_nested.arena.scenario import Scenario
 from mc_nested.workers.cluster import connection
+from tests.arena.made_games import TakesAtItsWord
 from tests.cli.running import TRAIN, run
 from tests.learn.objectives.made_objectives import small
 
@@ -16,6 +19,19 @@ def trained(tmp_path_factory: pytest.TempPathFactory) -> Path:
     out = tmp_path_factory.mktemp("runs") / "run"
     assert run(*TRAIN, "--out", out) == 0
     return out
+
+
+@pytest.fixture
+def opened_games(monkeypatch: pytest.MonkeyPatch) -> list[TakesAtItsWord]:
+    """Return the simulator's games that are opened from here on; each wants what was announced."""
+    games: list[TakesAtItsWord] = []
+
+    def opened(scenario: Scenario) -> TakesAtItsWord:
+        games.append(TakesAtItsWord(scenario))
+        return games[-1]
+
+    monkeypatch.setattr(sim.worlds, "GridGame", opened)
+    return games
 
 
 @pytest.fixture

@@ -53,18 +53,11 @@ def test_each_action_of_a_shipped_design_is_announced_with_its_material(
     name: str,
     material: list[str],
     words: list[str],
-    monkeypatch: pytest.MonkeyPatch,
+    opened_games: list[TakesAtItsWord],
     capsys: pytest.CaptureFixture[str],
 ) -> None:
-    games: list[TakesAtItsWord] = []
-
-    def opened(scenario: Scenario) -> TakesAtItsWord:
-        games.append(TakesAtItsWord(scenario))
-        return games[-1]
-
-    monkeypatch.setattr(sim.worlds, "GridGame", opened)
     assert run("build", name, *material, *words) == 0
-    (game,) = games
+    (game,) = opened_games
     assert f"in {game.acts} steps" in capsys.readouterr().out
     assert game.kept == game.acts - 1
     assert game.following is None

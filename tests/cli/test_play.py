@@ -6,8 +6,6 @@ from pathlib import Path
 
 import pytest
 
-import sim.worlds
-from mc_nested.arena.scenario import Scenario
 from mc_nested.arena.scenario_file import load_scenario
 from mc_nested.errors import LiveError, NotInFrontError, StoppedError
 from tests.arena.made_games import TakesAtItsWord
@@ -100,18 +98,11 @@ def test_an_agent_with_objectives_shows_what_it_is_after_in_a_game(
 
 
 def test_an_agent_with_objectives_announces_each_action(
-    with_objectives: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+    with_objectives: Path, opened_games: list[TakesAtItsWord], capsys: pytest.CaptureFixture[str]
 ) -> None:
-    games: list[TakesAtItsWord] = []
-
-    def opened(scenario: Scenario) -> TakesAtItsWord:
-        games.append(TakesAtItsWord(scenario))
-        return games[-1]
-
-    monkeypatch.setattr(sim.worlds, "GridGame", opened)
     capsys.readouterr()
     assert run("play", with_objectives, "--json") == 0
-    (game,) = games
+    (game,) = opened_games
     assert game.acts == json.loads(capsys.readouterr().out)["steps"]
     assert game.kept == game.acts - 1
     assert game.following is None
