@@ -60,6 +60,7 @@ BY_THE_SUITE = {
         ),
         "tests/cli/test_games_training.py",
     ),
+    "mc-nested train --preset any-design --seed": "tests/learn/test_objective_training.py",
     "mc-nested train --preset without-hindsight.toml": "tests/learn/test_objective_training.py",
     "python scripts/bench.py any-design --main": "tests/scripts/benches/test_any_design.py",
     "python scripts/bench.py any-design --run": "tests/scripts/benches/test_any_design.py",
@@ -94,6 +95,7 @@ FILES: dict[str, Callable[[], bytes]] = {
 """Files that a reader has, as their own programs write them."""
 
 BEFORE = {
+    "mc-nested build house --agent --backend live": (CALIBRATE,),
     "mc-nested calibrate arena": (CALIBRATE, "mc-nested calibrate arena --undo"),
     **dict.fromkeys(
         ("mc-nested train --resume runs/two", "mc-nested runs evaluate runs/two"),
