@@ -92,8 +92,7 @@ class ObjectivesTraining(Training):
         """Build the scenario greedily, by the rules of the game, and count that as an evaluation."""
         online, scenario = self.agent.online(), self._scenario
         agent = ObjectiveAgent(online["main"][0], online["low"][0], scenario, self._rule.nested_sees)
-        placed, steps = built_by_the_rules(agent, scenario)
+        _, steps, score = built_by_the_rules(agent, scenario)
         self.evaluation_steps += steps
-        score = scenario.score(placed, scenario.best_material)
         row = EvaluationRow(0, int(self.episodes_done[0]), score, scenario.best_material, steps)
         self._count_evaluation(row, online)

@@ -118,7 +118,7 @@ def judged(name: str, scenarios: Sequence[Scenario], agent_for: Callable[[Scenar
     """Return how many of those designs are built whole, and in how many of the scripted builder's steps."""
     shares, failed = [], []
     for scenario in track(scenarios, name, console=Console(stderr=True)):
-        placed, steps = built_by_the_rules(agent_for(scenario), scenario)
+        placed, steps, _ = built_by_the_rules(agent_for(scenario), scenario)
         if placed == scenario.design:
             shares.append(steps / len(build(scenario)))
         else:

@@ -7,6 +7,7 @@ import pytest
 
 from mc_nested.arena.action import Action
 from mc_nested.arena.env import ArenaEnv
+from mc_nested.arena.scenario import Scenario
 from mc_nested.arena.scenario_file import load_scenario
 from mc_nested.arrays import Bools
 from mc_nested.errors import PresetError
@@ -63,9 +64,10 @@ def test_a_training_resumes_to_the_bit_in_both_phases() -> None:
         assert_same(finished(resumed), whole)
 
 
-def test_what_was_trained_plays_as_in_its_last_evaluation() -> None:
-    training = finished(training_of(LINE, small()))
-    played = build_greedily(ArenaEnv(GridGame(LINE), LINE), training.agent)
+@pytest.mark.parametrize("scenario", [LINE, load_scenario("flag")], ids=["line", "flag, in parts"])
+def test_what_was_trained_plays_as_in_its_last_evaluation(scenario: Scenario) -> None:
+    training = finished(training_of(scenario, small()))
+    played = build_greedily(ArenaEnv(GridGame(scenario), scenario), training.agent)
     last = training.evaluation_rows[-1]
     assert (played.score, len(played.actions)) == (last.score, last.steps)
 
@@ -79,7 +81,7 @@ def test_evaluations_and_greedy_play_show_the_nested_agent_as_much_as_its_lesson
     training.agent.load_online({role: network[None] for role, network in zip(("main", "low"), networks, strict=True)})
     finished(training)
     played = build_greedily(ArenaEnv(GridGame(LINE), LINE), training.agent)
-    _, steps = built_by_the_rules(ObjectiveAgent(*networks, LINE, sees), LINE)
+    steps = built_by_the_rules(ObjectiveAgent(*networks, LINE, sees), LINE).steps
     assert training.evaluation_rows[-1].steps == len(played.actions) == steps
 
 
@@ -89,9 +91,7 @@ def transitions(training: ObjectivesTraining, role: str) -> list[tuple[np.ndarra
     assert learner
     kept = learner.replay.gather(np.zeros(1, np.int64), np.arange(learner.replay.added[0])[None])
     side = 8
-    planes = np.unpackbits(kept.states.astype(np.uint8), axis=-1)[..., : 3 * side * side].reshape(
-        *kept.states.shape[:-1], 3, side, side
-    )
+    planes = np.unpackbits(kept.states.astype(np.uint8), axis=-1).reshape(*kept.states.shape[:-1], -1, side, side)
     parts = zip(planes[0, 0], planes[1, 0], kept.actions[0], kept.rewards[0], kept.discounts[0], strict=True)
     return [
         (before, after, int(action), float(reward), float(discount))

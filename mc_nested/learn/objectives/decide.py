@@ -14,6 +14,7 @@ import numpy as np
 from mc_nested.arena.action import Action, Cell
 from mc_nested.arena.rules import end_of_episode, landing, moved
 from mc_nested.arena.scenario import Scenario
+from mc_nested.arena.tally import THE_ARENA, Tally
 from mc_nested.arrays import Bools, Float32s
 from mc_nested.learn.dqn.states import LOSES, Sees
 from mc_nested.learn.objectives.arenas import (
@@ -145,13 +146,26 @@ class ObjectiveAgent:
         return self._outside | framed_cells(placed, self._side)
 
 
-def built_by_the_rules(agent: ObjectiveAgent, scenario: Scenario) -> tuple[frozenset[Cell], int]:
-    """Return what stands after one episode of that agent, and its steps, if all goes as the rules say."""
-    plan, cell, placed, steps = Plan(), scenario.start, frozenset[Cell](), 0
+class Built(NamedTuple):
+    """An episode: where blocks stand at its end, its steps, and its score r_M."""
+
+    placed: frozenset[Cell]
+    steps: int
+    score: float
+
+
+def built_by_the_rules(agent: ObjectiveAgent, scenario: Scenario) -> Built:
+    """Return one episode of that agent, if all goes as the rules say."""
+    plan, cell, placed, steps, tally = Plan(), scenario.start, frozenset[Cell](), 0, Tally([scenario])
+    tally.begin(THE_ARENA, np.array([scenario.best_material]))
     while not (
         agent.is_stuck(plan, placed) or any(end_of_episode(scenario.blocks - len(placed), steps, scenario.step_limit))
     ):
         decision, plan = agent.decide(plan, cell, placed)
+        before = placed
         cell, placed = agent.expected(cell, placed, decision.action)
+        tally.take(THE_ARENA, np.array([decision.material]))
+        for x, y in placed - before:
+            tally.lay(THE_ARENA, np.array([x]), np.array([y]))
         steps += 1
-    return placed, steps
+    return Built(placed, steps, float(tally.total(THE_ARENA)[0]))

@@ -27,17 +27,18 @@ LINE = load_scenario("line")
 @pytest.mark.parametrize("name", shipped_scenarios())
 def test_every_shipped_design_is_built_whole_at_the_first_try(name: str) -> None:
     scenario = load_scenario(name)
-    placed, steps = built_by_the_rules(agent_of(WEIGHTS, scenario), scenario)
+    placed, steps, score = built_by_the_rules(agent_of(WEIGHTS, scenario), scenario)
     assert placed == scenario.design
     assert steps <= scenario.step_limit
+    assert score == scenario.optimum
 
 
 def test_random_designs_are_built_whole_in_about_the_scripted_builders_steps() -> None:
     scenarios = [random_scenario(7, number, LINE) for number in range(30)]
     built = [built_by_the_rules(agent_of(WEIGHTS, scenario), scenario) for scenario in scenarios]
-    whole = [placed == scenario.design for (placed, _), scenario in zip(built, scenarios, strict=True)]
+    whole = [episode.placed == scenario.design for episode, scenario in zip(built, scenarios, strict=True)]
     assert sum(whole) >= 29
-    shares = [steps / len(build(scenario)) for (_, steps), scenario in zip(built, scenarios, strict=True)]
+    shares = [episode.steps / len(build(scenario)) for episode, scenario in zip(built, scenarios, strict=True)]
     assert np.median(shares) <= 1.15
 
 
@@ -45,7 +46,7 @@ def test_random_designs_are_built_whole_in_about_the_scripted_builders_steps() -
 def test_a_design_is_built_in_an_arena_of_any_size(size: int) -> None:
     design = frozenset((x, y) for x in (1, 2, size - 2) for y in (1, 3))
     scenario = replace(LINE, name="six", design=design, size=size, start=(size // 2, size - 1), step_limit=200)
-    assert built_by_the_rules(agent_of(WEIGHTS, scenario), scenario)[0] == design
+    assert built_by_the_rules(agent_of(WEIGHTS, scenario), scenario).placed == design
 
 
 def test_an_objective_is_kept_until_a_block_has_landed() -> None:
@@ -95,7 +96,7 @@ def test_an_episode_ends_once_every_cell_was_given_up_by_the_rules_as_in_an_aren
     agent = ObjectiveAgent(online["main"][0], online["low"][0], scenario)
     decide = agent.decide
     monkeypatch.setattr(agent, "decide", lambda *seen: (Decision(Action.B, 0), decide(*seen)[1]))
-    assert built_by_the_rules(agent, scenario) == (frozenset(), 2 * PATIENCE * 7 + 1)
+    assert built_by_the_rules(agent, scenario) == (frozenset(), 2 * PATIENCE * 7 + 1, scenario.materials[0].p)
     env = ArenaEnv(GridGame(scenario), scenario)
     assert len(take_steps(env, steps_of(agent, env)).actions) == 2 * PATIENCE * 7 + 1
 
