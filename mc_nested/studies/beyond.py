@@ -19,7 +19,7 @@ from mc_nested.studies.beyond_figure import beyond_figure, objectives_figure
 from mc_nested.studies.claim_text import claim_section, method
 from mc_nested.studies.claims.arm_results import ArmResults, Arms, arm_results
 from mc_nested.studies.claims.beyond import equal_budget, judge_beyond, of_topic
-from mc_nested.studies.claims.costs import MEGA
+from mc_nested.studies.claims.judge import MEGA
 from mc_nested.studies.config import StudyConfig
 from mc_nested.studies.inference import ALPHA, share_interval
 from mc_nested.studies.job import JobBuilders

@@ -10,8 +10,7 @@ from matplotlib.patches import Patch
 from matplotlib.ticker import MaxNLocator, StrMethodFormatter
 
 from mc_nested.report.curve import t_interval
-from mc_nested.studies.measures import Curve
-from mc_nested.studies.results import Results
+from mc_nested.studies.results import Curve, Results
 
 CURVES: dict[str, dict[str, Any]] = {
     "nested": {"color": "#0072B2", "linestyle": "-"},

@@ -11,7 +11,7 @@ from gymnasium.vector import VectorEnv
 from numpy.typing import NDArray
 
 from mc_nested.arena.cooperative.team import Team, team_of
-from mc_nested.arrays import Arrays, Int64s, named_for, part_of
+from mc_nested.arrays import Arrays, Int64s
 from mc_nested.atomic_file import refused_as
 from mc_nested.errors import RunError
 from mc_nested.learn.agents import AGENT_SPECS, Agent
@@ -19,7 +19,6 @@ from mc_nested.learn.builders import Builders
 from mc_nested.learn.episode_log import EvaluationRow
 from mc_nested.learn.runs.checkpoint import Checkpoint, fingerprint
 from mc_nested.learn.trainer import Trainer
-from mc_nested.learn.training import Training
 from mc_nested.studies.job import Job
 from mc_nested.studies.outcome import Evaluated, JobOutcome, RunOutcome, evaluated, write_outcome
 
@@ -55,42 +54,6 @@ class TrainedJob(Protocol):
         """Write the outcome, and leave nothing else."""
 
 
-class SpendingCount:
-    """Counts what each of so many runs has spent, beside their trainer.
-
-    ``at``: (steps, updates) of each evaluation, in their order; ``steps`` (runs,): those so far.
-    """
-
-    def __init__(self, runs: int) -> None:
-        self.at: list[tuple[int, int]] = []
-        self.steps = np.zeros(runs, dtype=np.int64)
-        self._episodes = 0
-
-    def count(self, trainer: Training) -> None:
-        """Count what the trainer did since the last call; to be called after each of its ticks.
-
-        No run is updated while it is evaluated, and an evaluation takes a tick at least.
-        """
-        for episode in trainer.episode_rows[self._episodes :]:
-            self.steps[episode.trial] += episode.steps
-        self._episodes = len(trainer.episode_rows)
-        if len(trainer.evaluation_rows) > len(self.at):
-            updates = trainer.agent.updates_by_run
-            for row in trainer.evaluation_rows[len(self.at) :]:
-                self.at.append((int(self.steps[row.trial]), int(updates[row.trial])))
-
-    def state(self) -> Arrays:
-        """Return what a checkpoint keeps."""
-        return {"at": np.array(self.at, dtype=np.int64).reshape(-1, 2)}
-
-    def load(self, state: Mapping[str, NDArray[Any]], trainer: Training) -> None:
-        """Go on from what ``state`` returned, beside the trainer as it was then."""
-        self.at = [(steps, updates) for steps, updates in state["at"].tolist()]
-        self.steps[:] = 0
-        self._episodes = 0
-        self.count(trainer)
-
-
 class JobTraining:
     """Trains a job in its folder, from where it was last saved.
 
@@ -103,7 +66,8 @@ class JobTraining:
     def __init__(self, job: Job, folder: Path, trainer: Trainer) -> None:
         self.job = job
         self.trainer = trainer
-        self._spent = SpendingCount(len(job.trials))
+        self._updates_at: list[int] = []
+        """Those of its run before each evaluation."""
         self._folder = folder
         anew = f"delete {folder}, and this job alone begins anew"
         self._checkpoint = Checkpoint(folder / "checkpoint", job.identity(), anew)
@@ -135,7 +99,7 @@ class JobTraining:
         RunError if the disk refuses; the last save is intact then.
         """
         self.trainer.tick()
-        self._spent.count(self.trainer)
+        self._count_updates()
         if (self.trainer.episodes_done - self._saved_at).max() >= self.job.preset.evaluate_every:
             self.save()
 
@@ -155,9 +119,9 @@ class JobTraining:
         shutil.rmtree(self._folder / "checkpoint", ignore_errors=True)
 
     def state(self) -> Arrays:
-        """Return what the checkpoint keeps: the trainer's, and the seconds so far."""
-        spent = named_for("spent", self._spent.state())
-        return {**self.trainer.state(), "job.seconds": np.array([self._seconds()]), **spent}
+        """Return what the checkpoint keeps: the trainer's, the seconds so far, and what each evaluation had cost."""
+        spent = np.array(self._spent(self._steps()), dtype=np.int64).reshape(-1, 2)
+        return {**self.trainer.state(), "job.seconds": np.array([self._seconds()]), "spent.at": spent}
 
     def marks(self) -> Arrays:
         """Return the trainer's marks, for the checkpoint."""
@@ -171,15 +135,34 @@ class JobTraining:
         """Go on from what the checkpoint has saved."""
         self.trainer.load(state, journals)
         self._seconds_before = float(state["job.seconds"][0])
-        self._spent.load(part_of(state, "spent"), self.trainer)
+        self._updates_at = state["spent.at"][:, 1].tolist()
 
     def _seconds(self) -> float:
         return self._seconds_before + time.thread_time() - self._began
 
+    def _count_updates(self) -> None:
+        """Note the updates at each new evaluation: no run is updated meanwhile, and it takes a tick at least."""
+        if new := self.trainer.evaluation_rows[len(self._updates_at) :]:
+            updates = self.trainer.agent.updates_by_run
+            self._updates_at += [int(updates[row.trial]) for row in new]
+
+    def _steps(self) -> list[Int64s]:
+        """Return how many training steps each run had taken after each number of its episodes, from none on."""
+        own: list[list[int]] = [[0] for _ in self.job.trials]
+        for episode in self.trainer.episode_rows:
+            own[episode.trial].append(episode.steps)
+        return [np.cumsum(steps) for steps in own]
+
+    def _spent(self, steps: Sequence[Int64s]) -> list[tuple[int, int]]:
+        """Return the steps and updates of its run before each evaluation."""
+        rows = self.trainer.evaluation_rows
+        trained = [int(steps[row.trial][row.episode]) for row in rows]
+        return list(zip(trained, self._updates_at, strict=True))
+
     def _outcome(self) -> JobOutcome:
-        agent, runs = self.trainer.agent, len(self.job.trials)
+        agent, runs, steps = self.trainer.agent, len(self.job.trials), self._steps()
         evaluations: list[list[Evaluated]] = [[] for _ in range(runs)]
-        for row, spent in zip(self.trainer.evaluation_rows, self._spent.at, strict=True):
+        for row, spent in zip(self.trainer.evaluation_rows, self._spent(steps), strict=True):
             evaluations[row.trial].append(evaluated(row, self.job.scenarios[row.trial], spent))
         updates = agent.updates_by_run
         held = None if self.job.preset.imagination else agent.replay_bytes
@@ -193,7 +176,7 @@ class JobTraining:
                     evaluations=evaluations[run],
                     score=float(self.trainer.policy_scores[run]),
                     updates=int(updates[run]),
-                    env_steps=int(self._spent.steps[run]),
+                    env_steps=int(steps[run][-1]),
                     replay_bytes=None if held is None else int(held[run]),
                 )
                 for run in range(runs)

@@ -10,14 +10,11 @@ from mc_nested.learn.preset import MOST
 from mc_nested.studies.arm import Arm
 from mc_nested.studies.claim_text import claim_section, claims_table, method
 from mc_nested.studies.claims.contests import HIERARCHICAL, NESTED, UNSOLVED
-from mc_nested.studies.claims.costs import MEGA
-from mc_nested.studies.claims.judge import judge
-from mc_nested.studies.claims.scores import trials_solved
+from mc_nested.studies.claims.judge import MEGA, judge, trials_solved
 from mc_nested.studies.config import StudyConfig
 from mc_nested.studies.figure5 import figure5
 from mc_nested.studies.inference import coverage, share_interval
-from mc_nested.studies.measures import Curve, early_limit
-from mc_nested.studies.results import Cost, Results, results_of
+from mc_nested.studies.results import Cost, Curve, Results, early_limit, results_of
 from mc_nested.studies.study import Report, Study, StudyOptions, with_episodes
 from mc_nested.studies.table import NONE, Table, interval, interval_of_mean, markdown_of, mean, number_of_trials
 from mc_nested.studies.trial import Trial, greedy_table

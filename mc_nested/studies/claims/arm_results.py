@@ -9,8 +9,8 @@ import numpy as np
 from mc_nested.arrays import Float64s
 from mc_nested.studies.arm import Arm
 from mc_nested.studies.job import JobBuilders
-from mc_nested.studies.measures import LAST
 from mc_nested.studies.outcome import Evaluated
+from mc_nested.studies.results import LAST
 from mc_nested.studies.trial import Trial, on_each
 
 Budget = Literal["steps", "updates"]
