@@ -22,7 +22,6 @@ from mc_nested.studies.claims.beyond import equal_budget, judge_beyond, of_topic
 from mc_nested.studies.claims.judge import MEGA
 from mc_nested.studies.config import StudyConfig
 from mc_nested.studies.inference import ALPHA, share_interval
-from mc_nested.studies.job import JobBuilders
 from mc_nested.studies.power import MOST_TRIALS, POWER, deciding_trials
 from mc_nested.studies.reproduce import found_of
 from mc_nested.studies.study import Report, Study, StudyOptions, with_episodes
@@ -127,7 +126,7 @@ def _cooperation(paper: Preset, trials: int) -> list[Arm]:
     """Return builders on the line: one alone, and two to four, learning in each way."""
     line, preset = [load_scenario("line")], with_episodes(paper, TEAM_EPISODES)
     return [
-        arm_of("cooperation", team_name(count, kind), preset, line, trials, builders=JobBuilders(count, kind))
+        arm_of("cooperation", team_name(count, kind), preset, line, trials, builders=count, networks=kind)
         for count, kind in TEAMS
     ]
 

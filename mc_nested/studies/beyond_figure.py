@@ -121,7 +121,7 @@ def _draw_teams(axes: Axes, own: Sequence[ArmResults]) -> None:
         teams = teams_of(own, kind)
         counts = [count + 0.06 * (number - 1) for count in teams]
         _draw_means(axes, counts, [arm.last_ten for arm in teams.values()], alone.optimum, kind, f"networks: {kind}")
-    axes.set_xticks(sorted({arm.team.count for arm in own if arm.team}))
+    axes.set_xticks(sorted({arm.arm.builders for arm in own if arm.arm.builders}))
     title = f"{alone.scenario}: builders in one arena"
     axes.set(title=title, xlabel="builders", ylabel="mean of the last ten")
 

@@ -186,14 +186,14 @@ class JobTraining:
 
 def team_of_job(job: Job) -> Team | None:
     """Return the builders who share an arena in each of its runs, all of one scenario; None where one builds alone."""
-    return team_of(job.scenarios[0], job.builders.count) if job.builders else None
+    return team_of(job.scenarios[0], job.arm.builders) if job.arm.builders else None
 
 
 def agents_trainer(job: Job, env: VectorEnv[Int64s, Int64s, Any]) -> Trainer:
     """Return the trainer of a job; ``env`` has the arena of each of its runs, as the simulator makes them."""
     team = team_of_job(job)
-    builders = Builders(team.starts, job.builders.networks) if team and job.builders else None
-    spec = AGENT_SPECS[builders.agent] if builders else job.spec
+    builders = Builders(team.starts, job.arm.networks) if team else None
+    spec = AGENT_SPECS[builders.agent] if builders else job.arm.spec
     agent = Agent(spec, job.scenarios, job.preset, job.seed, job.trials, builders)
     view = agent.view_of(env, job.scenarios)
-    return Trainer(view, job.scenarios, agent, job.preset, job.seed, job.stop_at_optimum)
+    return Trainer(view, job.scenarios, agent, job.preset, job.seed, job.arm.stop_at_optimum)

@@ -175,7 +175,7 @@ class Sb3Training:
     @property
     def finished(self) -> bool:
         rows, preset = self.evaluation_rows, self.job.preset
-        at_optimum = self.job.stop_at_optimum and bool(rows) and rows[-1].score >= self._scenario.optimum
+        at_optimum = self.job.arm.stop_at_optimum and bool(rows) and rows[-1].score >= self._scenario.optimum
         return at_optimum or self._env.episodes >= preset.episodes
 
     @property

@@ -47,7 +47,7 @@ def _training_of(job: Job, folder: Path) -> TrainedJob:
     if team := team_of_job(job):
         return JobTraining(job, folder, agents_trainer(job, team_arenas(team, len(job.trials))))
     arenas = GridVectorEnv(job.scenarios)
-    if job.library is None:
+    if job.arm.library is None:
         return JobTraining(job, folder, agents_trainer(job, arenas))
     from mc_nested.studies.sb3 import Sb3Training  # only where the library is asked for
 
@@ -58,10 +58,7 @@ def _events(training: TrainedJob, folder: Path) -> TensorBoard | None:
     if not (isinstance(training, JobTraining) and is_installed()):
         return None
     job = training.job
-    names = (
-        re.sub(r"[^\w.-]+", "-", f"{group}-{scenario.name}-{trial}")
-        for group, scenario, trial in zip(job.groups, job.scenarios, job.trials, strict=True)
-    )
+    names = (re.sub(r"[^\w.-]+", "-", f"{run.arm.name}-{run.scenario.name}-{run.trial}") for run in job.runs)
     with refused_as(RunError, folder, "make room"):
         return TensorBoard([folder.parent.parent / FOLDER / name for name in names], training.trainer)
 

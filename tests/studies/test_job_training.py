@@ -2,7 +2,6 @@
 
 import re
 import shutil
-from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -11,7 +10,8 @@ from mc_nested.arena.cooperative.team_env import TeamVectorEnv
 from mc_nested.errors import RunError
 from mc_nested.learn.builders import Networks
 from mc_nested.learn.runs.checkpoint import fingerprint
-from mc_nested.studies.job import Job, JobBuilders, cut_into_jobs
+from mc_nested.studies.arm import Arm, Run
+from mc_nested.studies.job import Job, cut_into_jobs
 from mc_nested.studies.job_training import JobTraining, agents_trainer, team_of_job
 from mc_nested.studies.outcome import OUTCOME, JobOutcome, RunOutcome, outcome_of
 from sim.grid import GridVectorEnv
@@ -171,8 +171,8 @@ def test_the_last_evaluation_has_the_outcomes_total_steps_and_updates(agent: str
 
 
 def team_job(builders: int, networks: Networks, trials: tuple[int, ...] = (0, 1)) -> Job:
-    job = replace(one_job("nested", [BAR], len(trials)), builders=JobBuilders(builders, networks))
-    return replace(job, trials=trials)
+    arm = Arm("nested", small_preset(), (), len(trials), builders=builders, networks=networks)
+    return Job("000", tuple(Run(arm, BAR, trial) for trial in trials), seed=3)
 
 
 def train_untouched(job: Job, folder: Path, stopped_at: int | None = None) -> JobOutcome:
@@ -218,7 +218,7 @@ def test_a_jobs_identity_includes_its_builders() -> None:
         team_job(2, "shared"),
         team_job(3, "shared"),
         team_job(2, "own"),
-        replace(team_job(2, "own"), builders=None),
+        one_job("nested", [BAR], 2),
     ]
     assert len({fingerprint(job.identity()) for job in jobs}) == 4
     assert jobs[-1].identity()["builders"] is None
