@@ -1,5 +1,6 @@
 """The paper's Figure 5: a panel for each scenario, greedy score against training episode, a curve for each agent."""
 
+from collections.abc import Mapping
 from typing import Any
 
 from matplotlib.artist import Artist
@@ -39,7 +40,7 @@ def figure5(results: Results) -> Figure:
         axes.axhline(results.optimum[scenario], zorder=1, **OPTIMUM)
         axes.axhline(results.builder[scenario], zorder=1, **BUILDER)
         for agent in results.agents:
-            _draw_curve(axes, agent, results.curves[agent, scenario], results.optimum[scenario])
+            draw_curve(axes, results.curves[agent, scenario], results.optimum[scenario], CURVES[agent])
         axes.set_title(scenario, parse_math=False)  # users name scenarios, so dollar signs may appear
         axes.set_xlabel("training episodes")
         axes.set_xlim(0, results.episodes)
@@ -56,14 +57,15 @@ def figure5(results: Results) -> Figure:
     return figure
 
 
-def _draw_curve(axes: Axes, agent: str, curve: Curve, optimum: float) -> None:
+def draw_curve(axes: Axes, curve: Curve, optimum: float, look: Mapping[str, Any], label: str | None = None) -> None:
+    """Draw the mean over the trials with its interval; nothing where there was no evaluation."""
     if not len(curve.episodes):
         return
     if len(curve.scores) > 1:
         low, high = t_interval(curve.scores, optimum)
-        axes.fill_between(curve.episodes, low, high, color=CURVES[agent]["color"], alpha=BAND, linewidth=0)
+        axes.fill_between(curve.episodes, low, high, color=look["color"], alpha=BAND, linewidth=0)
     marker = "o" if len(curve.episodes) == 1 else ""
-    axes.plot(curve.episodes, curve.scores.mean(axis=0), marker=marker, linewidth=1.5, **CURVES[agent])
+    axes.plot(curve.episodes, curve.scores.mean(axis=0), marker=marker, linewidth=1.5, label=label, **look)
 
 
 def _legend(results: Results) -> list[Artist]:
