@@ -19,11 +19,11 @@ from mc_nested.studies.beyond_figure import beyond_figure, objectives_figure
 from mc_nested.studies.claim_text import claim_section, method
 from mc_nested.studies.claims.arm_results import ArmResults, Arms, arm_results
 from mc_nested.studies.claims.beyond import equal_budget, judge_beyond, of_topic
-from mc_nested.studies.claims.judge import MEGA
 from mc_nested.studies.config import StudyConfig
 from mc_nested.studies.inference import ALPHA, share_interval
 from mc_nested.studies.power import MOST_TRIALS, POWER, deciding_trials
-from mc_nested.studies.reproduce import found_of
+from mc_nested.studies.reproduce import cost_cells, found_of
+from mc_nested.studies.results import cost_of
 from mc_nested.studies.study import Report, Study, StudyOptions, with_episodes
 from mc_nested.studies.table import (
     NONE,
@@ -291,17 +291,11 @@ def _more(own: Sequence[ArmResults], topic: str) -> list[str]:
             *_mean_and_interval(f"last ten until {steps:,} steps", arm.within(steps, "steps"), arm.optimum),
             *_mean_and_interval(f"last ten until {updates:,} updates", arm.within(updates, "updates"), arm.optimum),
             ("early", mean(arm.early(steps, "steps"))),
-            ("networks", str(arm.trials[0].networks)),
-            ("parameters", f"{arm.trials[0].parameters:,}"),
-            ("updates, all trials", f"{sum(trial.outcome.updates for trial in arm.trials):,}"),
-            ("steps, all trials", f"{sum(trial.outcome.env_steps for trial in arm.trials):,}"),
-            (
-                "replays, MB a trial",
-                mean(np.array([trial.outcome.replay_bytes or 0 for trial in arm.trials]) / MEGA),
-            ),
-            ("seconds of a core, all trials", f"{sum(trial.seconds for trial in arm.trials):.1f}"),
+            *cost_cells(cost),
+            ("seconds of a core, all trials", f"{cost.seconds:.1f}"),
         )
         for arm in own
+        for cost in [cost_of(arm.trials)]
     ]
     early = (
         f"Early: the mean over a trial's evaluations until {steps // 3:,} steps. Seconds are of the whole training, "

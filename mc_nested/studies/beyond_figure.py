@@ -15,7 +15,7 @@ from mc_nested.learn.builders import NETWORKS
 from mc_nested.report.curve import t_interval
 from mc_nested.studies.claims.arm_results import ArmResults, Arms
 from mc_nested.studies.claims.beyond import alone_among, equal_budget, of_topic, teams_of
-from mc_nested.studies.figure5 import CURVES, OPTIMUM, draw_curve
+from mc_nested.studies.reproduce import CURVES, OPTIMUM, draw_curve
 from mc_nested.studies.results import curve_of
 from mc_nested.studies.table import number_of_trials
 

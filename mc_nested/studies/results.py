@@ -154,11 +154,12 @@ def results_of(trials: Sequence[Trial], seed: int) -> Results:
         optimum={name: scenario.optimum for name, scenario in scenarios.items()},
         builder={name: builders_score(scenario) for name, scenario in scenarios.items()},
         curves={key: curve_of(own) for key, own in by_agent.items()},
-        costs={key: _cost(own) for key, own in by_agent.items()},
+        costs={key: cost_of(own) for key, own in by_agent.items()},
     )
 
 
-def _cost(trials: Sequence[Trial]) -> Cost:
+def cost_of(trials: Sequence[Trial]) -> Cost:
+    """Return the costs of an arm's trials on a scenario."""
     held = [trial.outcome.replay_bytes for trial in trials]
     return Cost(
         networks=trials[0].networks,
