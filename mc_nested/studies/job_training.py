@@ -4,7 +4,7 @@ import shutil
 import time
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any, Protocol
+from typing import Any
 
 import numpy as np
 from gymnasium.vector import VectorEnv
@@ -21,37 +21,6 @@ from mc_nested.learn.runs.checkpoint import Checkpoint, fingerprint
 from mc_nested.learn.trainer import Trainer
 from mc_nested.studies.job import Job
 from mc_nested.studies.outcome import Evaluated, JobOutcome, RunOutcome, evaluated, write_outcome
-
-
-class TrainedJob(Protocol):
-    """A job that is trained in its folder, by whatever algorithm; each method raises RunError if the disk refuses."""
-
-    job: Job
-
-    @property
-    def finished(self) -> bool:
-        """Whether every run has ended: then ``finish`` is next."""
-
-    @property
-    def episodes_done(self) -> Int64s:
-        """Training episodes completed, (runs,)."""
-
-    @property
-    def evaluation_rows(self) -> Sequence[EvaluationRow]:
-        """The greedy episodes so far, of all runs."""
-
-    @property
-    def updates(self) -> int:
-        """Updates of all networks so far."""
-
-    def tick(self) -> None:
-        """Train a little."""
-
-    def save(self) -> None:
-        """Save what the rest of the training needs: after it, a new one of the same job and folder goes on."""
-
-    def finish(self) -> None:
-        """Write the outcome, and leave nothing else."""
 
 
 class JobTraining:
@@ -79,18 +48,22 @@ class JobTraining:
 
     @property
     def finished(self) -> bool:
+        """Whether every run has ended: then ``finish`` is next."""
         return self.trainer.finished
 
     @property
     def episodes_done(self) -> Int64s:
+        """Training episodes completed, (runs,)."""
         return self.trainer.episodes_done
 
     @property
     def evaluation_rows(self) -> Sequence[EvaluationRow]:
+        """The greedy episodes so far, of all runs."""
         return self.trainer.evaluation_rows
 
     @property
     def updates(self) -> int:
+        """Updates of all networks so far."""
         return self.trainer.agent.updates
 
     def tick(self) -> None:
@@ -114,8 +87,7 @@ class JobTraining:
 
         RunError if the disk refuses.
         """
-        with refused_as(RunError, self._folder, "make room"):
-            write_outcome(self._folder, self._outcome())
+        write_outcome(self._folder, self._outcome())
         shutil.rmtree(self._folder / "checkpoint", ignore_errors=True)
 
     def state(self) -> Arrays:

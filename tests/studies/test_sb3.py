@@ -12,7 +12,6 @@ from mc_nested.studies import sb3
 from mc_nested.studies.arm import SB3, Arm, Run
 from mc_nested.studies.benchmark import baseline
 from mc_nested.studies.job import Job
-from mc_nested.studies.job_training import TrainedJob
 from mc_nested.studies.outcome import OUTCOME, JobOutcome, outcome_of
 from mc_nested.studies.sb3 import Sb3Dqn, Sb3Env, Sb3Training
 from sim.grid import GridVectorEnv
@@ -35,11 +34,11 @@ def training(folder: Path, own: Job | None = None, model: type[MadeModel] = Made
     return Sb3Training(own or job(), folder, GridVectorEnv([BAR]), GridVectorEnv([BAR]), model)
 
 
-def trained(own: TrainedJob) -> JobOutcome:
+def trained(own: Sb3Training) -> JobOutcome:
     while not own.finished:
         own.tick()
     own.finish()
-    outcome = outcome_of(own.job, Path(own._folder))  # type: ignore[attr-defined]  # its folder is its own
+    outcome = outcome_of(own.job, own._folder)
     assert outcome
     return outcome
 
