@@ -16,16 +16,25 @@ from mc_nested.learn.agents import AGENT_SPECS
 from mc_nested.learn.preset import MOST
 from mc_nested.report.curve import t_interval
 from mc_nested.studies.arm import Arm
-from mc_nested.studies.claim_text import claim_section, claims_table, method
+from mc_nested.studies.claim_text import claim_section, found_of, method, row_of
 from mc_nested.studies.claims.contests import HIERARCHICAL, NESTED, UNSOLVED
 from mc_nested.studies.claims.judge import MEGA, judge, trials_solved
 from mc_nested.studies.config import StudyConfig
 from mc_nested.studies.inference import coverage, share_interval
 from mc_nested.studies.results import Cost, Curve, Results, early_limit, results_of
 from mc_nested.studies.study import Report, Study, StudyOptions, with_episodes
-from mc_nested.studies.table import NONE, Cells, Table, interval, interval_of_mean, markdown_of, mean, number_of_trials
+from mc_nested.studies.table import (
+    NONE,
+    Cells,
+    Table,
+    interval,
+    interval_of_mean,
+    markdown,
+    markdown_of,
+    mean,
+    number_of_trials,
+)
 from mc_nested.studies.trial import Trial, greedy_table
-from mc_nested.studies.verdicts import JudgedClaim
 
 LONGER_AGENTS, LONGER_SCENARIOS = (NESTED, HIERARCHICAL), UNSOLVED
 """The paper's appendix says that these would reach the optimum with more training."""
@@ -77,6 +86,7 @@ def report_on(results: Results, longer: Results | None, tables: dict[str, Table]
     the same experiment is repeated.
     """
     claims = judge(results, longer)
+    rows = [row_of(each) for each in claims]
     return Report(
         text=[
             "# The paper's experiment, repeated",
@@ -85,7 +95,7 @@ def report_on(results: Results, longer: Results | None, tables: dict[str, Table]
             "![Score of a greedy episode against training episodes, a panel for each scenario](figure5.png)",
             *_bands(results),
             "## The paper's claims",
-            claims_table(claims),
+            markdown(("claim", "", "verdict"), [(*about, f"**{words}**") for *about, words in rows]),
             *(claim_section(judged) for judged in claims),
             "## Costs",
             _costs(results),
@@ -95,16 +105,8 @@ def report_on(results: Results, longer: Results | None, tables: dict[str, Table]
         figure=figure5(results),
         tables=tables,
         found={"claims": [found_of(each) for each in claims]},
-        shown=Table(
-            ("", "the paper's claim", "verdict"),
-            [(f"({each.claim.letter})", each.claim.title, each.words) for each in claims],
-        ),
+        shown=Table(("", "the paper's claim", "verdict"), rows),
     )
-
-
-def found_of(judged: JudgedClaim) -> dict[str, str]:
-    """Return a claim and its verdict, for a program."""
-    return {"letter": judged.claim.letter, "claim": judged.claim.title, "verdict": judged.verdict.value}
 
 
 EXPLAINED = """\
