@@ -39,11 +39,12 @@ from mc_nested.learn.agents import AGENT_SPECS
 from mc_nested.learn.preset import MOST, shipped_presets
 from mc_nested.learn.runs.folder_kind import verb_of_study
 from mc_nested.learn.runs.folder_lock import folder_lock
-from mc_nested.studies.arm import AGENTS
+from mc_nested.studies.arm import AGENTS, Arm
 from mc_nested.studies.config import config_of
 from mc_nested.studies.folder import StudyFolder
 from mc_nested.studies.study import SHIPPED, Study, StudyOptions, write_report
 from mc_nested.studies.table import Table
+from mc_nested.studies.trial import trials_of
 from mc_nested.workers.cluster.address import SchedulerAddress
 from sim.worlds import check_window
 
@@ -185,22 +186,34 @@ def command_of(study: Study, instead: Mapping[str, str] | None = None) -> Callab
 
     def command(context: typer.Context, **values: Any) -> None:
         given = {name for name in values if is_given(context, name)}
-        chosen = next((name for name in others if values[name]), None)
-        verbs = [verb_of_study(name) for name in (study.name, *others)]
+        output = Output(values["quiet"], values["as_json"])
+        scheduler = cluster_of(values["cluster"], values["keys"], values["insecure"])
         if values["resume"] is not None:
             _check_given(given, BESIDE_RESUME, "--resume goes on with its own config.toml")
+            verbs = [verb_of_study(name) for name in (study.name, *others)]
             folder = StudyFolder.open(values["resume"], verbs)
             with folder_lock(values["resume"]):
-                _run(declared(folder.config.study), folder, values)
-        elif chosen is None:
-            _begin(study, values, given)
-        else:
-            other = declared(chosen)
+                run_study(declared(folder.config.study), folder, output, scheduler)
+            return
+        asked, own = study, values
+        if chosen := next((name for name in others if values[name]), None):
+            asked = declared(chosen)
             _check_given(
-                given, (chosen, *other.options, *EVERY_STUDY), f"--{chosen} takes fewer options than {study.name}"
+                given, (chosen, *asked.options, *EVERY_STUDY), f"--{chosen} takes fewer options than {study.name}"
             )
-            defaults = {name: default for name, default in other.options.items() if name not in given}
-            _begin(other, {**values, **defaults}, given - {chosen})
+            own = {**values, **{name: default for name, default in asked.options.items() if name not in given}}
+        options = _options_of(asked, own, given)
+        arms = _checked_arms(asked, options)
+        config = config_of(
+            asked.name,
+            arms,
+            trials=options.trials,
+            seed=options.seed,
+            jobs=own["jobs"] or jobs_at_once(scheduler, output),
+            notes=asked.notes(options),
+        )
+        with output_folder(own["out"], asked.folder or asked.name) as path:
+            run_study(asked, StudyFolder.new(path, config), output, scheduler)
 
     flags = {name: (Annotated[bool, typer.Option(f"--{name}", help=what)], False) for name, what in others.items()}
     own = {name: (OPTIONS[name], default) for name, default in study.options.items()}
@@ -220,9 +233,8 @@ def _check_given(given: Iterable[str], beside: Sequence[str], why: str) -> None:
         raise UserError(f"{why}: leave out --{name.replace('_', '-')}")
 
 
-def _begin(study: Study, values: Mapping[str, Any], given: AbstractSet[str]) -> None:
-    output, scheduler = Output(values["quiet"], values["as_json"]), _scheduler(values)
-    options = _options_of(study, values, given)
+def _checked_arms(study: Study, options: StudyOptions) -> Sequence[Arm]:
+    """Return what is trained; UserError if that can't be, or not here."""
     arms = study.arms(options)
     for arm in arms:
         check_window(arm.preset.states, has_window=False)
@@ -231,16 +243,7 @@ def _begin(study: Study, values: Mapping[str, Any], given: AbstractSet[str]) -> 
         from mc_nested.learn.dqn.torch_engine.engine import device_named  # torch takes seconds to load
 
         device_named(options.device)
-    config = config_of(
-        study.name,
-        arms,
-        trials=options.trials,
-        seed=options.seed,
-        jobs=values["jobs"] or jobs_at_once(scheduler, output),
-        notes=study.notes(options),
-    )
-    with output_folder(values["out"], study.folder or study.name) as path:
-        _run(study, StudyFolder.new(path, config), values)
+    return arms
 
 
 def _options_of(study: Study, values: Mapping[str, Any], given: AbstractSet[str]) -> StudyOptions:
@@ -260,17 +263,10 @@ def _listed(options: Sequence[str] | None) -> list[str]:
     return list(dict.fromkeys(name.strip() for option in options or () for name in option.split(",")))
 
 
-def _scheduler(values: Mapping[str, Any]) -> SchedulerAddress | None:
-    return cluster_of(values["cluster"], values["keys"], values["insecure"])
-
-
-def _run(study: Study, folder: StudyFolder, values: Mapping[str, Any]) -> None:
-    run_study(study, folder, Output(values["quiet"], values["as_json"]), _scheduler(values))
-
-
 def run_study(study: Study, folder: StudyFolder, output: Output, scheduler: SchedulerAddress | None = None) -> None:
     """Train what is missing, write the report and say where it is; errors as ``train_all``'s."""
-    report = study.report_on(folder.config, train_all(folder, output, scheduler))
+    outcomes = train_all(folder, output, scheduler)
+    report = study.report(folder.config, trials_of(folder.config.loaded_arms(), outcomes))
     with folder.writing():
         write_report(folder.path, study, report)
     paths = {what: folder.path / name for what, name in study.files.items()}

@@ -19,6 +19,7 @@ from mc_nested.cli.interrupt import Stopped, catch_interrupts
 from mc_nested.cli.output import Output, print_line
 from mc_nested.cli.progress import LINE_EVERY_S
 from mc_nested.errors import RunError
+from mc_nested.studies.arm import Run
 from mc_nested.studies.folder import StudyFolder
 from mc_nested.studies.job import Job
 from mc_nested.studies.outcome import JobOutcome
@@ -47,24 +48,19 @@ class StudyStatus:
 
     def __init__(self, jobs: Iterable[tuple[Job, JobOutcome | None]]) -> None:
         self._jobs: dict[str, Job] = {}
-        self._episodes: dict[str, int] = {}
-        self._updates: dict[str, int] = {}
-        self._updates_at_first: dict[str, int] = {}
-        self._scores: dict[tuple[str, str], dict[int, float]] = {}
         self._ended: set[str] = set()
+        self._first: dict[str, JobReport] = {}
+        self._last: dict[str, JobReport] = {}
+        """What each job has reported, the latest at the end."""
         self.optimum: dict[str, float] = {}
         """Each scenario's highest score, in the order of the scenarios."""
-        self.groups: list[str] = []
-        """Groups of which anything is known, the latest trained at the end."""
         for job, outcome in jobs:
             self._jobs[job.name] = job
             self.optimum.update({scenario.name: scenario.optimum for scenario in job.scenarios})
             if outcome:
-                self._episodes[job.name] = job.episodes
+                scores = tuple(run.evaluations[-1].score for run in outcome.runs)
+                self.hear(JobReport(job.name, [job.preset.episodes] * len(job.runs), scores, updates=0))
                 self._ended.add(job.name)
-                self._take(job, [run.evaluations[-1].score for run in outcome.runs])
-        self.episodes_before = self.episodes
-        """Episodes that were done before the first report."""
 
     @property
     def total(self) -> int:
@@ -73,53 +69,53 @@ class StudyStatus:
 
     @property
     def episodes(self) -> int:
-        """Episodes that are done."""
-        return sum(self._episodes.values())
+        """Episodes that are done; a job that has ended needs no more."""
+        ended = sum(self._jobs[name].episodes for name in self._ended)
+        return ended + sum(sum(last.episodes) for name, last in self._last.items() if name not in self._ended)
+
+    @property
+    def episodes_before(self) -> int:
+        """Episodes that were done before each job's first report."""
+        return sum(sum(first.episodes) for first in self._first.values())
 
     @property
     def updates(self) -> int:
         """Updates since each job's first report."""
-        return sum(self._updates.values()) - sum(self._updates_at_first.values())
+        return sum(last.updates - self._first[name].updates for name, last in self._last.items())
+
+    @property
+    def groups(self) -> list[str]:
+        """Groups of which anything is known, the latest trained at the end."""
+        latest_first = (group for name in reversed(self._last) for group in reversed(self._jobs[name].groups))
+        return list(dict.fromkeys(latest_first))[::-1]
 
     def hear(self, heard: JobReport | JobEnded) -> None:
         """Record a message of a process."""
-        job = self._jobs[heard.job]
-        if isinstance(heard, JobEnded):
-            if heard.finished:
-                self._episodes[job.name] = job.episodes
-                self._ended.add(job.name)
-            return
-        if job.name not in self._updates:
-            self._updates_at_first[job.name] = heard.updates
-            self.episodes_before += sum(heard.episodes)
-        self._episodes[job.name] = sum(heard.episodes)
-        self._updates[job.name] = heard.updates
-        self._take(job, heard.scores)
+        if isinstance(heard, JobReport):
+            self._first.setdefault(heard.job, heard)
+            self._last.pop(heard.job, None)
+            self._last[heard.job] = heard
+        elif heard.finished:
+            self._ended.add(heard.job)
 
     def score(self, group: str, scenario: str) -> float | None:
         """Return the mean of the last greedy scores of the runs that were evaluated."""
-        scores = self._scores.get((group, scenario), {})
-        return sum(scores.values()) / len(scores) if scores else None
+        scores = [score for run, score in self._evaluated(group) if run.scenario.name == scenario]
+        return sum(scores) / len(scores) if scores else None
 
     def ended(self, group: str) -> tuple[int, int]:
         """Return how many of a group's runs have ended, and how many there are."""
-        of_group = [(name, job.groups.count(group)) for name, job in self._jobs.items()]
-        return sum(runs for name, runs in of_group if name in self._ended), sum(runs for _, runs in of_group)
+        of_group = [name in self._ended for name, job in self._jobs.items() for own in job.groups if own == group]
+        return sum(of_group), len(of_group)
 
     def at_optimum(self, group: str) -> int:
         """Return how many of a group's runs were at their scenario's optimum in their last greedy episode."""
-        return sum(
-            score >= self.optimum[scenario]
-            for (own, scenario), scores in self._scores.items()
-            if own == group
-            for score in scores.values()
-        )
+        return sum(score >= run.scenario.optimum for run, score in self._evaluated(group))
 
-    def _take(self, job: Job, scores: Iterable[float | None]) -> None:
-        self.groups = [group for group in self.groups if group not in job.groups] + list(dict.fromkeys(job.groups))
-        for group, scenario, trial, score in zip(job.groups, job.scenarios, job.trials, scores, strict=True):
-            if score is not None:
-                self._scores.setdefault((group, scenario.name), {})[trial] = score
+    def _evaluated(self, group: str) -> list[tuple[Run, float]]:
+        """Return the group's runs that were evaluated, each with its last greedy score."""
+        pairs = (zip(self._jobs[name].runs, last.scores, strict=True) for name, last in self._last.items())
+        return [(run, score) for own in pairs for run, score in own if run.arm.name == group and score is not None]
 
 
 class StudyProgress:

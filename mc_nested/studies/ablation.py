@@ -5,75 +5,51 @@ The study takes no preset as an option: its parts belong to those two.
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from importlib import resources
 from typing import Any
 
 import numpy as np
-import tomlkit
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.ticker import NullFormatter, StrMethodFormatter
-from pydantic import Field
 
 from mc_nested.arrays import Float64s
-from mc_nested.errors import PresetError
-from mc_nested.learn.preset import Preset, load_preset, parse_preset
+from mc_nested.learn.preset import load_preset
 from mc_nested.studies.arm import Arm
-from mc_nested.studies.change import changed_tables
+from mc_nested.studies.change import shipped_changes
 from mc_nested.studies.config import StudyConfig
 from mc_nested.studies.inference import RESAMPLES, Interval, percentiles
 from mc_nested.studies.profiles import played_by
 from mc_nested.studies.study import Report, Study, StudyOptions, with_episodes
 from mc_nested.studies.table import Cells, episodes, markdown_of, number_of_trials
 from mc_nested.studies.trial import Trial, on_each, optimum_of, trial_table
-from mc_nested.toml_file import TomlTable, parse_toml
 
-FILE = "ablation.toml"
 MODEL_BASED = "model-based"
+
+LIVE_EPISODES = 30
+"""The most real episodes of a trial of model-based.
+
+The whole preset needs half of them, and a part that fails to teach the networks uses up the whole budget of a practice
+between every two of them.
+"""
 
 COLUMNS = ("part", "base", "scenario", "trial", "optimum", "best_score", "played_to_optimum", "updates")
 
 
-class AblatedPart(TomlTable):
-    """What is off: the preset ``base`` with some values changed, or without some of its tables."""
-
-    name: str
-    base: str
-    what: str = ""
-    preset: dict[str, Any] = Field(default_factory=dict)
-    without: list[str] = Field(default_factory=list)
-
-    def whole_preset(self) -> Preset:
-        """Return the preset that it comes to."""
-        base = load_preset(self.base).model_dump(exclude_none=True)
-        kept = {key: value for key, value in base.items() if key not in self.without}
-        return parse_preset(tomlkit.dumps(changed_tables(kept, self.preset)), f"{FILE}, {self.name}")
-
-
-class AblationFile(TomlTable):
-    """The shipped parts, and how many episodes those of model-based have at most."""
-
-    live_episodes: int
-    rows: list[AblatedPart]
-
-
 def arms(options: StudyOptions) -> list[Arm]:
     """Return the shipped parts. A trial of what practises trains alone, since nothing is quicker in a batch."""
-    text = (resources.files("mc_nested.studies") / FILE).read_text("utf-8")
-    shipped = parse_toml(AblationFile, text, FILE, PresetError)
     found = []
-    for part in shipped.rows:
-        most = options.episodes or (shipped.live_episodes if part.base == MODEL_BASED else None)
-        preset = with_episodes(part.whole_preset(), most)
+    for part in shipped_changes("ablation.toml"):
+        most = options.episodes or (LIVE_EPISODES if part.base == MODEL_BASED else None)
+        preset = with_episodes(part.preset_from(load_preset(part.base)), most)
         found.append(
             Arm(
-                name=part.name,
+                name=part.choice,
                 preset=preset,
                 preset_name=part.base,
                 scenarios=options.scenarios,
                 trials=options.trials,
-                labels={"part": part.name, "base": part.base, "what": part.what},
+                labels={"part": part.choice, "base": part.base, "what": part.what},
                 stop_at_optimum=True,
                 together=1 if preset.imagination else options.trials,
             )

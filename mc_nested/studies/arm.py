@@ -1,4 +1,4 @@
-"""An arm of a study: trainings that are the same but for their design and their trial."""
+"""An arm of a study, and its runs: trainings that are the same but for their design and their trial."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
@@ -7,8 +7,9 @@ from pathlib import Path
 from mc_nested.arena.corpus_file import MOST_DESIGNS
 from mc_nested.arena.scenario import Scenario
 from mc_nested.learn.agents import AGENT_SPECS, AgentSpec, check_exploration, check_parts
+from mc_nested.learn.builders import Networks
+from mc_nested.learn.dqn.engines import NUMBERS
 from mc_nested.learn.preset import Preset
-from mc_nested.studies.job import JobBuilders, Run
 
 LIBRARY = "stable-baselines3"
 
@@ -17,6 +18,9 @@ SB3 = "sb3"
 
 AGENTS = (*AGENT_SPECS, SB3)
 """The agents that an arm can have, by name."""
+
+IMAGE_WORK = 100
+"""How much longer an episode seen as images takes."""
 
 
 @dataclass(frozen=True)
@@ -32,7 +36,8 @@ class Arm:
         preset_name: a shipped preset's name, or a file.
         labels: what tells it apart in the study's table, by column.
         sees_choice: whether the single agent sees the material that it chose; None as it ever does.
-        builders: where several share an arena, how many and how they learn.
+        builders: how many share an arena, spread along the scenario's start (builders.py); ``agent`` says nothing then.
+        networks: how they learn.
         stop_at_optimum: whether a trial ends at its first greedy episode at the optimum.
         differs_by_design: whether each design has random numbers of its own, so that one lucky network isn't lucky on
             all; such designs train one after the other, so that what is left takes as long as what is done.
@@ -47,7 +52,8 @@ class Arm:
     preset_name: str = "paper"
     labels: Mapping[str, str] = field(default_factory=dict)
     sees_choice: bool | None = None
-    builders: JobBuilders | None = None
+    builders: int | None = None
+    networks: Networks = "shared"
     stop_at_optimum: bool = False
     differs_by_design: bool = False
     together: int | None = None
@@ -62,21 +68,16 @@ class Arm:
         """How its agent is put together; stable-baselines3's has the single agent's task."""
         return spec_of("single" if self.agent == SB3 else self.agent, self.sees_choice)
 
-    def runs(self) -> list[Run]:
+    @property
+    def library(self) -> str | None:
+        """Whose algorithm trains it; None for this project's agents."""
+        return LIBRARY if self.agent == SB3 else None
+
+    def runs(self) -> list["Run"]:
         """Return its trainings, scenario by scenario, trial by trial."""
+        alone = replace(self, scenarios=())  # a worker is sent its own scenarios, not all
         return [
-            Run(
-                group=self.name,
-                spec=self.spec,
-                preset=self.preset,
-                scenario=scenario,
-                trial=self.number_of(place, trial),
-                stop_at_optimum=self.stop_at_optimum,
-                library=LIBRARY if self.agent == SB3 else None,
-                builders=self.builders,
-                together=self.together,
-                turn=place if self.differs_by_design else 0,
-            )
+            Run(alone, scenario, self.number_of(place, trial), place if self.differs_by_design else 0)
             for place, scenario in enumerate(self.scenarios)
             for trial in range(self.trials)
         ]
@@ -90,6 +91,35 @@ class Arm:
         if self.agent != SB3:
             check_exploration(self.spec, self.preset)
         check_parts(self.scenarios, self.preset)
+
+
+@dataclass(frozen=True)
+class Run:
+    """One training of an arm.
+
+    Args:
+        arm: how it is trained; its scenarios aren't there.
+        scenario: what it builds.
+        trial: its number, which its random numbers depend on (streams.py).
+        turn: its job begins after those of a lower one.
+    """
+
+    arm: Arm
+    scenario: Scenario
+    trial: int
+    turn: int = 0
+
+    @property
+    def work(self) -> int:
+        """How long it takes, relative to others: per episode, each network takes about as long as everything else.
+
+        Ten trials of the paper's experiment took 6.6 seconds per run of the nested agent, 10.0 of the hierarchical and
+        4.6 of the single one. An image takes some hundred times as long as numbers.
+        """
+        spec, preset = self.arm.spec, self.arm.preset
+        networks = spec.has_main + (len(self.scenario.materials) if spec.low_level_per_material else 1)
+        image = 1 if preset.states == NUMBERS else IMAGE_WORK
+        return preset.episodes * (1 + networks) * (self.arm.builders or 1) * image
 
 
 def spec_of(agent: str, sees_choice: bool | None = None) -> AgentSpec:

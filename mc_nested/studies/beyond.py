@@ -16,15 +16,14 @@ from mc_nested.learn.builders import NETWORKS, Networks
 from mc_nested.learn.preset import Preset, load_preset
 from mc_nested.studies.arm import Arm
 from mc_nested.studies.beyond_figure import beyond_figure, objectives_figure
-from mc_nested.studies.claim_text import claim_section, method
+from mc_nested.studies.claim_text import claim_section, found_of, method, row_of
 from mc_nested.studies.claims.arm_results import ArmResults, Arms, arm_results
 from mc_nested.studies.claims.beyond import equal_budget, judge_beyond, of_topic
-from mc_nested.studies.claims.costs import MEGA
 from mc_nested.studies.config import StudyConfig
 from mc_nested.studies.inference import ALPHA, share_interval
-from mc_nested.studies.job import JobBuilders
 from mc_nested.studies.power import MOST_TRIALS, POWER, deciding_trials
-from mc_nested.studies.reproduce import found_of
+from mc_nested.studies.reproduce import cost_cells
+from mc_nested.studies.results import cost_of
 from mc_nested.studies.study import Report, Study, StudyOptions, with_episodes
 from mc_nested.studies.table import (
     NONE,
@@ -127,7 +126,7 @@ def _cooperation(paper: Preset, trials: int) -> list[Arm]:
     """Return builders on the line: one alone, and two to four, learning in each way."""
     line, preset = [load_scenario("line")], with_episodes(paper, TEAM_EPISODES)
     return [
-        arm_of("cooperation", team_name(count, kind), preset, line, trials, builders=JobBuilders(count, kind))
+        arm_of("cooperation", team_name(count, kind), preset, line, trials, builders=count, networks=kind)
         for count, kind in TEAMS
     ]
 
@@ -197,11 +196,13 @@ def report(config: StudyConfig, trials: Sequence[Trial]) -> Report:
 def report_on(study: str, arms: Arms, trials: int, seed: int) -> Report:
     """Return that study's report on these arms; the same of the same results, but for the column of seconds."""
     claims, (title, shows, draw) = judge_beyond(arms), REPORTS[study]
+    rows = [(*row_of(each), in_words(each)) for each in claims]
+    header = ("claim", "", f"verdict at α = {ALPHA:g}", f"trials that would decide it, power {POWER:g}")
     text = [
         f"# {title}",
         f"Seed {seed}: {number_of_trials(trials)} of each agent, where the tables don't say otherwise.",
         f"![{shows}]({study}.png)",
-        _verdicts(claims),
+        markdown(header, [(*about, f"**{words}**", needed) for *about, words, needed in rows]),
     ]
     for topic, heading in TOPICS.items():
         if not (own := of_topic(arms, topic)):
@@ -210,7 +211,6 @@ def report_on(study: str, arms: Arms, trials: int, seed: int) -> Report:
         text += [claim_section(each) for each in claims if each.claim.letter.startswith(LETTERS[topic])]
     text += ["## How it was computed", method(claims, trials, keeps_best=False), MORE.format(power=POWER)]
     every = [trial for each in arms.values() for trial in each.trials]
-    rows = [(f"({each.claim.letter})", each.claim.title, each.words, in_words(each)) for each in claims]
     return Report(
         text=text,
         figure=draw(arms),
@@ -239,12 +239,6 @@ def _too_few(arms: Sequence[ArmResults]) -> list[str]:
     if few == max(len(arm.trials) for arm in arms) or 0.5**few < ALPHA:
         return []
     return [f"{few} trials are too few for any test: a claim with a line of so few stays undecided."]
-
-
-def _verdicts(claims: Sequence[JudgedClaim]) -> str:
-    rows = [(f"({each.claim.letter})", each.claim.title, f"**{each.words}**", in_words(each)) for each in claims]
-    header = ("claim", "", f"verdict at α = {ALPHA:g}", f"trials that would decide it, power {POWER:g}")
-    return markdown(header, rows)
 
 
 def _scores(arms: Sequence[ArmResults]) -> str:
@@ -292,17 +286,11 @@ def _more(own: Sequence[ArmResults], topic: str) -> list[str]:
             *_mean_and_interval(f"last ten until {steps:,} steps", arm.within(steps, "steps"), arm.optimum),
             *_mean_and_interval(f"last ten until {updates:,} updates", arm.within(updates, "updates"), arm.optimum),
             ("early", mean(arm.early(steps, "steps"))),
-            ("networks", str(arm.trials[0].networks)),
-            ("parameters", f"{arm.trials[0].parameters:,}"),
-            ("updates, all trials", f"{sum(trial.outcome.updates for trial in arm.trials):,}"),
-            ("steps, all trials", f"{sum(trial.outcome.env_steps for trial in arm.trials):,}"),
-            (
-                "replays, MB a trial",
-                mean(np.array([trial.outcome.replay_bytes or 0 for trial in arm.trials]) / MEGA),
-            ),
-            ("seconds of a core, all trials", f"{sum(trial.seconds for trial in arm.trials):.1f}"),
+            *cost_cells(cost),
+            ("seconds of a core, all trials", f"{cost.seconds:.1f}"),
         )
         for arm in own
+        for cost in [cost_of(arm.trials)]
     ]
     early = (
         f"Early: the mean over a trial's evaluations until {steps // 3:,} steps. Seconds are of the whole training, "

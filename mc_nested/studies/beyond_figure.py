@@ -12,10 +12,11 @@ from matplotlib.figure import Figure
 
 from mc_nested.arrays import Float64s
 from mc_nested.learn.builders import NETWORKS
-from mc_nested.report.curve import align_trials, t_interval
+from mc_nested.report.curve import t_interval
 from mc_nested.studies.claims.arm_results import ArmResults, Arms
 from mc_nested.studies.claims.beyond import alone_among, equal_budget, of_topic, teams_of
-from mc_nested.studies.figure5 import BAND, CURVES, OPTIMUM
+from mc_nested.studies.reproduce import CURVES, OPTIMUM, draw_curve
+from mc_nested.studies.results import curve_of
 from mc_nested.studies.table import number_of_trials
 
 COLUMNS = 3
@@ -80,18 +81,10 @@ def _draw_curves(axes: Axes, arms: Sequence[ArmResults], title: str) -> None:
     optimum, lowest = arms[0].optimum, 0.0
     axes.axhline(optimum, zorder=1, **OPTIMUM)
     for arm in arms:
-        rows = [(trial.number, each.episode, each.score) for trial in arm.trials for each in trial.outcome.evaluations]
-        episodes, scores = align_trials(rows, len(arm.trials))
-        trials = number_of_trials(len(arm.trials))
-        if len(scores) > 1:
-            low, high = t_interval(scores, arm.optimum)
-            axes.fill_between(episodes, low, high, color=LOOKS[arm.name]["color"], alpha=BAND, linewidth=0)
-        ends = ", each until the optimum" if arm.stops else ""
-        label = f"{arm.name}, {trials}{ends}"
-        marker = "o" if len(episodes) == 1 else ""
-        means = scores.mean(axis=0)
-        lowest = min(lowest, float(means.min()))
-        axes.plot(episodes, means, linewidth=1.5, marker=marker, label=label, **LOOKS[arm.name])
+        curve, ends = curve_of(arm.trials), ", each until the optimum" if arm.stops else ""
+        lowest = min(lowest, float(curve.scores.mean(axis=0).min()))
+        label = f"{arm.name}, {number_of_trials(len(arm.trials))}{ends}"
+        draw_curve(axes, curve, optimum, LOOKS[arm.name], label)
     axes.set_ylim(1.1 * lowest, 1.1 * optimum)
     axes.set(title=title, xlabel="training episodes", ylabel="score of a greedy episode")
 
@@ -121,7 +114,7 @@ def _draw_teams(axes: Axes, own: Sequence[ArmResults]) -> None:
         teams = teams_of(own, kind)
         counts = [count + 0.06 * (number - 1) for count in teams]
         _draw_means(axes, counts, [arm.last_ten for arm in teams.values()], alone.optimum, kind, f"networks: {kind}")
-    axes.set_xticks(sorted({arm.team.count for arm in own if arm.team}))
+    axes.set_xticks(sorted({arm.arm.builders for arm in own if arm.arm.builders}))
     title = f"{alone.scenario}: builders in one arena"
     axes.set(title=title, xlabel="builders", ylabel="mean of the last ten")
 

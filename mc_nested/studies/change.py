@@ -20,15 +20,20 @@ from mc_nested.toml_file import TomlTable, parse_toml
 class Change(TomlTable):
     """One changed choice; what isn't given stays as it is. An empty choice is the base: nothing is changed.
 
-    ``needs``: a table of the preset; where the preset lacks it, the change is left out. ``designs``: other drawings for
-    the scenarios of those names. ``sees_choice`` is the single agent's. ``agent`` is who learns where not all do.
+    ``what`` it means, in words. ``base``: the preset that is changed, where that isn't the study's own. ``needs``: a
+    table of the preset; where the preset lacks it, the change is left out. ``without``: tables that are left out.
+    ``designs``: other drawings for the scenarios of those names. ``sees_choice`` is the single agent's. ``agent`` is
+    who learns where not all do.
     """
 
     choice: str = ""
     value: str = ""
+    what: str = ""
     agent: AgentName = "nested"
+    base: str = ""
     needs: str | None = None
     preset: dict[str, Any] = Field(default_factory=dict)
+    without: list[str] = Field(default_factory=list)
     start: Annotated[list[int], Field(min_length=2, max_length=2)] | None = None
     step_limit: Annotated[int, Field(ge=1, le=LONGEST)] | None = None
     sees_choice: bool | None = None
@@ -41,10 +46,10 @@ class Change(TomlTable):
 
     def preset_from(self, base: Preset) -> Preset:
         """Return the preset with its changes; PresetError if they don't fit."""
-        if not self.preset:
+        if not (self.preset or self.without):
             return base
-        changed = changed_tables(base.model_dump(exclude_none=True), self.preset)
-        return parse_preset(tomlkit.dumps(changed), f"variant {self.name}")
+        kept = base.model_dump(exclude_none=True, exclude=set(self.without))
+        return parse_preset(tomlkit.dumps(_changed_tables(kept, self.preset)), f"variant {self.name}")
 
     def scenario_from(self, base: Scenario) -> Scenario:
         """Return the scenario with its changes; ScenarioError if it can't be built."""
@@ -94,9 +99,9 @@ def shipped_changes(file: str) -> list[Change]:
     return parse_toml(_Changes, text, file, PresetError).changes
 
 
-def changed_tables(base: Mapping[str, Any], changes: Mapping[str, Any]) -> dict[str, Any]:
+def _changed_tables(base: Mapping[str, Any], changes: Mapping[str, Any]) -> dict[str, Any]:
     """Return the nested tables with some values changed."""
     both = dict(base)
     for key, value in changes.items():
-        both[key] = changed_tables(base.get(key) or {}, value) if isinstance(value, Mapping) else value
+        both[key] = _changed_tables(base.get(key) or {}, value) if isinstance(value, Mapping) else value
     return both

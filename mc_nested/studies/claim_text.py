@@ -1,9 +1,9 @@
-"""The part of a report that says what was judged: a table of the claims, each claim's lines, and how it was judged."""
+"""The part of a report that says what was judged: the claims, each claim's lines, and how it was judged."""
 
 from collections.abc import Sequence
 
 from mc_nested.studies.inference import ALPHA, RESAMPLES, SIMULATED
-from mc_nested.studies.table import Cells, interval, markdown, markdown_of, probability, two
+from mc_nested.studies.table import Cells, interval, markdown_of, probability, two
 from mc_nested.studies.verdicts import Evidence, Finding, JudgedClaim
 
 METHOD = """\
@@ -52,10 +52,14 @@ TOO_FEW_AGAINST = """
   shown not to hold by one of them alone. Train more trials."""
 
 
-def claims_table(claims: Sequence[JudgedClaim]) -> str:
-    """Return the table of the claims, a line for each."""
-    rows = [(f"({judged.claim.letter})", judged.claim.title, f"**{judged.words}**") for judged in claims]
-    return markdown(("claim", "", "verdict"), rows)
+def found_of(judged: JudgedClaim) -> dict[str, str]:
+    """Return a claim and its verdict, for a program."""
+    return {"letter": judged.claim.letter, "claim": judged.claim.title, "verdict": judged.verdict.value}
+
+
+def row_of(judged: JudgedClaim) -> tuple[str, str, str]:
+    """Return the same for a person, as cells of a table."""
+    return f"({judged.claim.letter})", judged.claim.title, judged.words
 
 
 def claim_section(judged: JudgedClaim) -> str:

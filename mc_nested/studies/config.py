@@ -14,7 +14,7 @@ from mc_nested.learn.builders import Networks
 from mc_nested.learn.preset import Preset
 from mc_nested.learn.runs.folder_kind import FORMAT
 from mc_nested.studies.arm import AGENTS, Arm
-from mc_nested.studies.job import Job, JobBuilders, cut_into_jobs, side_by_side
+from mc_nested.studies.job import Job, cut_into_jobs, side_by_side
 from mc_nested.toml_file import TomlTable, one_of
 
 
@@ -61,10 +61,8 @@ class StudyConfig(TomlTable):
             missing = [name for name in table.scenarios if name not in scenarios]
             if missing or table.preset not in self.presets:
                 raise RunError(f"arm {table.name!r}: names what isn't there: put config.toml back as it was")
-            fields = table.model_dump(exclude={"preset", "scenarios", "builders", "networks"})
-            builders = JobBuilders(table.builders, table.networks) if table.builders else None
             own = tuple(scenarios[name] for name in table.scenarios)
-            arms.append(Arm(preset=self.presets[table.preset], scenarios=own, builders=builders, **fields))
+            arms.append(Arm(**{**table.model_dump(), "preset": self.presets[table.preset], "scenarios": own}))
         _check_different(arms)
         return arms
 
@@ -87,23 +85,8 @@ def config_of(
     tables = []
     for arm in arms:
         names = [_keyed(scenarios, table.name, table) for table in map(table_of, arm.scenarios)]
-        tables.append(
-            ArmTable(
-                name=arm.name,
-                agent=arm.agent,
-                preset=_keyed(presets, arm.short_preset, arm.preset),
-                preset_name=arm.preset_name,
-                scenarios=names,
-                trials=arm.trials,
-                labels=dict(arm.labels),
-                sees_choice=arm.sees_choice,
-                builders=arm.builders.count if arm.builders else None,
-                networks=arm.builders.networks if arm.builders else "shared",
-                stop_at_optimum=arm.stop_at_optimum,
-                differs_by_design=arm.differs_by_design,
-                together=arm.together,
-            )
-        )
+        preset = _keyed(presets, arm.short_preset, arm.preset)
+        tables.append(ArmTable(**{**vars(arm), "preset": preset, "scenarios": names}))
     return StudyConfig(
         study=study,
         trials=trials,

@@ -4,14 +4,14 @@ import shutil
 import time
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any, Protocol
+from typing import Any
 
 import numpy as np
 from gymnasium.vector import VectorEnv
 from numpy.typing import NDArray
 
 from mc_nested.arena.cooperative.team import Team, team_of
-from mc_nested.arrays import Arrays, Int64s, named_for, part_of
+from mc_nested.arrays import Arrays, Int64s
 from mc_nested.atomic_file import refused_as
 from mc_nested.errors import RunError
 from mc_nested.learn.agents import AGENT_SPECS, Agent
@@ -19,76 +19,8 @@ from mc_nested.learn.builders import Builders
 from mc_nested.learn.episode_log import EvaluationRow
 from mc_nested.learn.runs.checkpoint import Checkpoint, fingerprint
 from mc_nested.learn.trainer import Trainer
-from mc_nested.learn.training import Training
 from mc_nested.studies.job import Job
 from mc_nested.studies.outcome import Evaluated, JobOutcome, RunOutcome, evaluated, write_outcome
-
-
-class TrainedJob(Protocol):
-    """A job that is trained in its folder, by whatever algorithm; each method raises RunError if the disk refuses."""
-
-    job: Job
-
-    @property
-    def finished(self) -> bool:
-        """Whether every run has ended: then ``finish`` is next."""
-
-    @property
-    def episodes_done(self) -> Int64s:
-        """Training episodes completed, (runs,)."""
-
-    @property
-    def evaluation_rows(self) -> Sequence[EvaluationRow]:
-        """The greedy episodes so far, of all runs."""
-
-    @property
-    def updates(self) -> int:
-        """Updates of all networks so far."""
-
-    def tick(self) -> None:
-        """Train a little."""
-
-    def save(self) -> None:
-        """Save what the rest of the training needs: after it, a new one of the same job and folder goes on."""
-
-    def finish(self) -> None:
-        """Write the outcome, and leave nothing else."""
-
-
-class SpendingCount:
-    """Counts what each of so many runs has spent, beside their trainer.
-
-    ``at``: (steps, updates) of each evaluation, in their order; ``steps`` (runs,): those so far.
-    """
-
-    def __init__(self, runs: int) -> None:
-        self.at: list[tuple[int, int]] = []
-        self.steps = np.zeros(runs, dtype=np.int64)
-        self._episodes = 0
-
-    def count(self, trainer: Training) -> None:
-        """Count what the trainer did since the last call; to be called after each of its ticks.
-
-        No run is updated while it is evaluated, and an evaluation takes a tick at least.
-        """
-        for episode in trainer.episode_rows[self._episodes :]:
-            self.steps[episode.trial] += episode.steps
-        self._episodes = len(trainer.episode_rows)
-        if len(trainer.evaluation_rows) > len(self.at):
-            updates = trainer.agent.updates_by_run
-            for row in trainer.evaluation_rows[len(self.at) :]:
-                self.at.append((int(self.steps[row.trial]), int(updates[row.trial])))
-
-    def state(self) -> Arrays:
-        """Return what a checkpoint keeps."""
-        return {"at": np.array(self.at, dtype=np.int64).reshape(-1, 2)}
-
-    def load(self, state: Mapping[str, NDArray[Any]], trainer: Training) -> None:
-        """Go on from what ``state`` returned, beside the trainer as it was then."""
-        self.at = [(steps, updates) for steps, updates in state["at"].tolist()]
-        self.steps[:] = 0
-        self._episodes = 0
-        self.count(trainer)
 
 
 class JobTraining:
@@ -103,7 +35,8 @@ class JobTraining:
     def __init__(self, job: Job, folder: Path, trainer: Trainer) -> None:
         self.job = job
         self.trainer = trainer
-        self._spent = SpendingCount(len(job.trials))
+        self._updates_at: list[int] = []
+        """Those of its run before each evaluation."""
         self._folder = folder
         anew = f"delete {folder}, and this job alone begins anew"
         self._checkpoint = Checkpoint(folder / "checkpoint", job.identity(), anew)
@@ -115,18 +48,22 @@ class JobTraining:
 
     @property
     def finished(self) -> bool:
+        """Whether every run has ended: then ``finish`` is next."""
         return self.trainer.finished
 
     @property
     def episodes_done(self) -> Int64s:
+        """Training episodes completed, (runs,)."""
         return self.trainer.episodes_done
 
     @property
     def evaluation_rows(self) -> Sequence[EvaluationRow]:
+        """The greedy episodes so far, of all runs."""
         return self.trainer.evaluation_rows
 
     @property
     def updates(self) -> int:
+        """Updates of all networks so far."""
         return self.trainer.agent.updates
 
     def tick(self) -> None:
@@ -135,7 +72,7 @@ class JobTraining:
         RunError if the disk refuses; the last save is intact then.
         """
         self.trainer.tick()
-        self._spent.count(self.trainer)
+        self._count_updates()
         if (self.trainer.episodes_done - self._saved_at).max() >= self.job.preset.evaluate_every:
             self.save()
 
@@ -150,14 +87,13 @@ class JobTraining:
 
         RunError if the disk refuses.
         """
-        with refused_as(RunError, self._folder, "make room"):
-            write_outcome(self._folder, self._outcome())
+        write_outcome(self._folder, self._outcome())
         shutil.rmtree(self._folder / "checkpoint", ignore_errors=True)
 
     def state(self) -> Arrays:
-        """Return what the checkpoint keeps: the trainer's, and the seconds so far."""
-        spent = named_for("spent", self._spent.state())
-        return {**self.trainer.state(), "job.seconds": np.array([self._seconds()]), **spent}
+        """Return what the checkpoint keeps: the trainer's, the seconds so far, and what each evaluation had cost."""
+        spent = np.array(self._spent(self._steps()), dtype=np.int64).reshape(-1, 2)
+        return {**self.trainer.state(), "job.seconds": np.array([self._seconds()]), "spent.at": spent}
 
     def marks(self) -> Arrays:
         """Return the trainer's marks, for the checkpoint."""
@@ -171,15 +107,34 @@ class JobTraining:
         """Go on from what the checkpoint has saved."""
         self.trainer.load(state, journals)
         self._seconds_before = float(state["job.seconds"][0])
-        self._spent.load(part_of(state, "spent"), self.trainer)
+        self._updates_at = state["spent.at"][:, 1].tolist()
 
     def _seconds(self) -> float:
         return self._seconds_before + time.thread_time() - self._began
 
+    def _count_updates(self) -> None:
+        """Note the updates at each new evaluation: no run is updated meanwhile, and it takes a tick at least."""
+        if new := self.trainer.evaluation_rows[len(self._updates_at) :]:
+            updates = self.trainer.agent.updates_by_run
+            self._updates_at += [int(updates[row.trial]) for row in new]
+
+    def _steps(self) -> list[Int64s]:
+        """Return how many training steps each run had taken after each number of its episodes, from none on."""
+        own: list[list[int]] = [[0] for _ in self.job.trials]
+        for episode in self.trainer.episode_rows:
+            own[episode.trial].append(episode.steps)
+        return [np.cumsum(steps) for steps in own]
+
+    def _spent(self, steps: Sequence[Int64s]) -> list[tuple[int, int]]:
+        """Return the steps and updates of its run before each evaluation."""
+        rows = self.trainer.evaluation_rows
+        trained = [int(steps[row.trial][row.episode]) for row in rows]
+        return list(zip(trained, self._updates_at, strict=True))
+
     def _outcome(self) -> JobOutcome:
-        agent, runs = self.trainer.agent, len(self.job.trials)
+        agent, runs, steps = self.trainer.agent, len(self.job.trials), self._steps()
         evaluations: list[list[Evaluated]] = [[] for _ in range(runs)]
-        for row, spent in zip(self.trainer.evaluation_rows, self._spent.at, strict=True):
+        for row, spent in zip(self.trainer.evaluation_rows, self._spent(steps), strict=True):
             evaluations[row.trial].append(evaluated(row, self.job.scenarios[row.trial], spent))
         updates = agent.updates_by_run
         held = None if self.job.preset.imagination else agent.replay_bytes
@@ -193,7 +148,7 @@ class JobTraining:
                     evaluations=evaluations[run],
                     score=float(self.trainer.policy_scores[run]),
                     updates=int(updates[run]),
-                    env_steps=int(self._spent.steps[run]),
+                    env_steps=int(steps[run][-1]),
                     replay_bytes=None if held is None else int(held[run]),
                 )
                 for run in range(runs)
@@ -203,14 +158,14 @@ class JobTraining:
 
 def team_of_job(job: Job) -> Team | None:
     """Return the builders who share an arena in each of its runs, all of one scenario; None where one builds alone."""
-    return team_of(job.scenarios[0], job.builders.count) if job.builders else None
+    return team_of(job.scenarios[0], job.arm.builders) if job.arm.builders else None
 
 
 def agents_trainer(job: Job, env: VectorEnv[Int64s, Int64s, Any]) -> Trainer:
     """Return the trainer of a job; ``env`` has the arena of each of its runs, as the simulator makes them."""
     team = team_of_job(job)
-    builders = Builders(team.starts, job.builders.networks) if team and job.builders else None
-    spec = AGENT_SPECS[builders.agent] if builders else job.spec
+    builders = Builders(team.starts, job.arm.networks) if team else None
+    spec = AGENT_SPECS[builders.agent] if builders else job.arm.spec
     agent = Agent(spec, job.scenarios, job.preset, job.seed, job.trials, builders)
     view = agent.view_of(env, job.scenarios)
-    return Trainer(view, job.scenarios, agent, job.preset, job.seed, job.stop_at_optimum)
+    return Trainer(view, job.scenarios, agent, job.preset, job.seed, job.arm.stop_at_optimum)

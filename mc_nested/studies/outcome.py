@@ -5,7 +5,7 @@ from pathlib import Path
 from pydantic import BaseModel, ConfigDict
 
 from mc_nested.arena.scenario import Scenario
-from mc_nested.atomic_file import atomic_write
+from mc_nested.atomic_file import atomic_write, refused_as
 from mc_nested.errors import RunError
 from mc_nested.learn.episode_log import EvaluationRow
 from mc_nested.learn.evaluation import GreedyEpisode
@@ -73,10 +73,11 @@ class JobOutcome(BaseModel):
 
 
 def write_outcome(folder: Path, outcome: JobOutcome) -> None:
-    """Write a finished job's outcome to its folder, atomically; OSError if the disk refuses."""
-    folder.mkdir(parents=True, exist_ok=True)
-    with atomic_write(folder / OUTCOME) as unfinished:
-        unfinished.write_text(sealed(outcome.model_dump()), encoding="utf-8")
+    """Write a finished job's outcome to its folder, atomically; RunError if the disk refuses."""
+    with refused_as(RunError, folder, "make room"):
+        folder.mkdir(parents=True, exist_ok=True)
+        with atomic_write(folder / OUTCOME) as unfinished:
+            unfinished.write_text(sealed(outcome.model_dump()), encoding="utf-8")
 
 
 def outcome_of(job: Job, folder: Path) -> JobOutcome | None:

@@ -32,23 +32,21 @@ class MeanEffect:
     above: float
     spread: float
 
-    def power_for(self, trials: Int64s, alpha: float) -> Float64s:
+    @property
+    def opposite(self) -> "MeanEffect":
+        """The same, seen from the opposite of what is tested."""
+        return MeanEffect(-self.above, self.spread)
+
+    def power(self, trials: Int64s, alpha: float) -> Float64s:
         """Return the chance that a test at that level shows it, for each number of trials (n,)."""
-        return self._power(self.above, trials, alpha)
-
-    def power_against(self, trials: Int64s, alpha: float) -> Float64s:
-        """Return the chance that a test at that level shows its opposite, likewise."""
-        return self._power(-self.above, trials, alpha)
-
-    def _power(self, distance: float, trials: Int64s, alpha: float) -> Float64s:
         # No p can be below the share of one choice of the signs among all.
         is_possible = 0.5**trials < alpha
         if not self.spread:
-            return np.where(is_possible, float(distance > 0), 0.0)
-        distances = distance / (self.spread / np.sqrt(trials))
+            return np.where(is_possible, float(self.above > 0), 0.0)
+        distances = self.above / (self.spread / np.sqrt(trials))
         found = stats.nct.sf(stats.t.ppf(1 - alpha, trials - 1), trials - 1, distances)
         # So far out that the power is 0 or 1, scipy's noncentral t isn't finite.
-        return np.where(is_possible, np.where(np.isfinite(found), found, distance > 0), 0.0)
+        return np.where(is_possible, np.where(np.isfinite(found), found, self.above > 0), 0.0)
 
 
 @dataclass(frozen=True)
@@ -57,11 +55,15 @@ class ShareEffect:
 
     share: float
 
-    def power_for(self, trials: Int64s, alpha: float) -> Float64s:
-        return _shown(self.share, trials, alpha)
+    @property
+    def opposite(self) -> "ShareEffect":
+        """The share of the other trials."""
+        return ShareEffect(1 - self.share)
 
-    def power_against(self, trials: Int64s, alpha: float) -> Float64s:
-        return _shown(1 - self.share, trials, alpha)
+    def power(self, trials: Int64s, alpha: float) -> Float64s:
+        """Return the chance that it is shown to be above one half, as ``MeanEffect.power``."""
+        least = stats.binom.isf(alpha, trials, 0.5) + 1  # successes: with fewer, p is alpha or more
+        return np.asarray(stats.binom.sf(least - 1, trials, self.share), dtype=np.float64)
 
 
 TestedEffect = MeanEffect | ShareEffect
@@ -77,17 +79,11 @@ def deciding_trials(effects: Sequence[TestedEffect]) -> int | None:
     if not effects:
         return None
     trials = np.arange(2, MOST_TRIALS + 1)
-    shown = np.prod([effect.power_for(trials, ALPHA) for effect in effects], axis=0)
+    shown = np.prod([effect.power(trials, ALPHA) for effect in effects], axis=0)
     level = ALPHA / len(effects)
-    opposed = 1 - np.prod([1 - effect.power_against(trials, level) for effect in effects], axis=0)
+    opposed = 1 - np.prod([1 - effect.opposite.power(trials, level) for effect in effects], axis=0)
     # A share's power rises in a saw-tooth: the number counts from where the power stays above.
     too_few = np.flatnonzero(np.minimum(shown + opposed, 1.0) < POWER)
     if not len(too_few):
         return int(trials[0])
     return int(trials[too_few[-1]]) + 1 if too_few[-1] + 1 < len(trials) else None
-
-
-def _shown(share: float, trials: Int64s, alpha: float) -> Float64s:
-    """Return the chance that so many trials, each a success with that probability, show that it is above one half."""
-    least = stats.binom.isf(alpha, trials, 0.5) + 1  # successes: with fewer, p is alpha or more
-    return np.asarray(stats.binom.sf(least - 1, trials, share), dtype=np.float64)

@@ -1,27 +1,40 @@
 """The paper's experiment: agents x scenarios x trials with one preset, some of them for longer; its claims judged."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from typing import Any
 
 import numpy as np
+from matplotlib.artist import Artist
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
+from matplotlib.ticker import MaxNLocator, StrMethodFormatter
 
 from mc_nested.errors import UserError
 from mc_nested.learn.agents import AGENT_SPECS
 from mc_nested.learn.preset import MOST
+from mc_nested.report.curve import t_interval
 from mc_nested.studies.arm import Arm
-from mc_nested.studies.claim_text import claim_section, claims_table, method
+from mc_nested.studies.claim_text import claim_section, found_of, method, row_of
 from mc_nested.studies.claims.contests import HIERARCHICAL, NESTED, UNSOLVED
-from mc_nested.studies.claims.costs import MEGA
-from mc_nested.studies.claims.judge import judge
-from mc_nested.studies.claims.scores import trials_solved
+from mc_nested.studies.claims.judge import MEGA, judge, trials_solved
 from mc_nested.studies.config import StudyConfig
-from mc_nested.studies.figure5 import figure5
 from mc_nested.studies.inference import coverage, share_interval
-from mc_nested.studies.measures import Curve, early_limit
-from mc_nested.studies.results import Cost, Results, results_of
+from mc_nested.studies.results import Cost, Curve, Results, early_limit, results_of
 from mc_nested.studies.study import Report, Study, StudyOptions, with_episodes
-from mc_nested.studies.table import NONE, Table, interval, interval_of_mean, markdown_of, mean, number_of_trials
+from mc_nested.studies.table import (
+    NONE,
+    Cells,
+    Table,
+    interval,
+    interval_of_mean,
+    markdown,
+    markdown_of,
+    mean,
+    number_of_trials,
+)
 from mc_nested.studies.trial import Trial, greedy_table
-from mc_nested.studies.verdicts import JudgedClaim
 
 LONGER_AGENTS, LONGER_SCENARIOS = (NESTED, HIERARCHICAL), UNSOLVED
 """The paper's appendix says that these would reach the optimum with more training."""
@@ -73,6 +86,7 @@ def report_on(results: Results, longer: Results | None, tables: dict[str, Table]
     the same experiment is repeated.
     """
     claims = judge(results, longer)
+    rows = [row_of(each) for each in claims]
     return Report(
         text=[
             "# The paper's experiment, repeated",
@@ -81,7 +95,7 @@ def report_on(results: Results, longer: Results | None, tables: dict[str, Table]
             "![Score of a greedy episode against training episodes, a panel for each scenario](figure5.png)",
             *_bands(results),
             "## The paper's claims",
-            claims_table(claims),
+            markdown(("claim", "", "verdict"), [(*about, f"**{words}**") for *about, words in rows]),
             *(claim_section(judged) for judged in claims),
             "## Costs",
             _costs(results),
@@ -91,16 +105,8 @@ def report_on(results: Results, longer: Results | None, tables: dict[str, Table]
         figure=figure5(results),
         tables=tables,
         found={"claims": [found_of(each) for each in claims]},
-        shown=Table(
-            ("", "the paper's claim", "verdict"),
-            [(f"({each.claim.letter})", each.claim.title, each.words) for each in claims],
-        ),
+        shown=Table(("", "the paper's claim", "verdict"), rows),
     )
-
-
-def found_of(judged: JudgedClaim) -> dict[str, str]:
-    """Return a claim and its verdict, for a program."""
-    return {"letter": judged.claim.letter, "claim": judged.claim.title, "verdict": judged.verdict.value}
 
 
 EXPLAINED = """\
@@ -166,12 +172,7 @@ def _costs(results: Results) -> str:
     keys = [(agent, scenario) for scenario in results.scenarios for agent in results.agents]
     costs = {key: results.costs[key] for key in keys if key in results.costs}
     rows = [
-        (
-            ("scenario", scenario),
-            ("agent", agent),
-            *((name, _ratio(cost, costs.get((NESTED, scenario)), of)) for of, name in COUNTS.items()),
-            ("replays, MB a trial", mean(np.array(cost.replay_bytes) / MEGA)),
-        )
+        (("scenario", scenario), ("agent", agent), *cost_cells(cost, costs.get((NESTED, scenario))))
         for (agent, scenario), cost in costs.items()
     ]
     spent: dict[str, float] = {}
@@ -186,13 +187,15 @@ def _costs(results: Results) -> str:
     )
 
 
-COUNTS = {
-    "networks": "networks",
-    "parameters": "parameters",
-    "updates": "updates, all trials",
-    "env_steps": "steps, all trials",
-}
-"""What is counted of a Cost, and its heading."""
+def cost_cells(cost: Cost, reference: Cost | None = None) -> Cells:
+    """Return the cells of a table, in brackets how many times the reference's a count is."""
+    return (
+        ("networks", _ratio(cost, reference, "networks")),
+        ("parameters", _ratio(cost, reference, "parameters")),
+        ("updates, all trials", _ratio(cost, reference, "updates")),
+        ("steps, all trials", _ratio(cost, reference, "env_steps")),
+        ("replays, MB a trial", mean(np.array(cost.replay_bytes) / MEGA)),
+    )
 
 
 def _ratio(cost: Cost, reference: Cost | None, of: str) -> str:
@@ -200,6 +203,76 @@ def _ratio(cost: Cost, reference: Cost | None, of: str) -> str:
     if reference is None or reference is cost or not getattr(reference, of):
         return f"{count:,}"
     return f"{count:,} ({count / getattr(reference, of):.2f})"
+
+
+CURVES: dict[str, dict[str, Any]] = {
+    "nested": {"color": "#0072B2", "linestyle": "-"},
+    "hierarchical": {"color": "#D55E00", "linestyle": "-"},
+    "single": {"color": "#009E73", "linestyle": (0, (4, 1.2))},
+}
+"""Okabe and Ito's colours, distinguishable with any colour vision."""
+
+OPTIMUM: dict[str, Any] = {"color": "black", "linewidth": 0.8}
+BUILDER: dict[str, Any] = {"color": "black", "linewidth": 2.6, "linestyle": (0, (1, 4))}
+"""Wide dots, so that the line is visible even if the builder's score is the optimum."""
+
+BAND = 0.18
+"""Opacity of the intervals."""
+
+ACROSS = 3
+"""Panels beside each other at most."""
+
+
+def figure5(results: Results) -> Figure:
+    """Draw a panel for each scenario, greedy score against training episode, a curve for each agent.
+
+    The same results give the same bytes with the same matplotlib.
+    """
+    columns = min(ACROSS, len(results.scenarios))
+    rows = -(-len(results.scenarios) // columns)
+    figure = Figure(figsize=(max(6.0, 4.3 * columns), 3.8 * rows + 0.5), dpi=160, layout="constrained")
+    panels = list(figure.subplots(rows, columns, sharey=True, squeeze=False).flat)
+    for axes, scenario in zip(panels, results.scenarios, strict=False):
+        axes.axhline(results.optimum[scenario], zorder=1, **OPTIMUM)
+        axes.axhline(results.builder[scenario], zorder=1, **BUILDER)
+        for agent in results.agents:
+            draw_curve(axes, results.curves[agent, scenario], results.optimum[scenario], CURVES[agent])
+        axes.set_title(scenario, parse_math=False)  # users name scenarios, so dollar signs may appear
+        axes.set_xlabel("training episodes")
+        axes.set_xlim(0, results.episodes)
+        axes.xaxis.set_major_locator(MaxNLocator(3, integer=True))
+        axes.xaxis.set_major_formatter(StrMethodFormatter("{x:,.0f}"))
+        axes.yaxis.set_major_locator(MaxNLocator(integer=True))
+        axes.grid(alpha=0.2)
+        axes.spines[["top", "right"]].set_visible(False)
+    for first in panels[::columns]:
+        first.set_ylabel("score of a greedy episode")
+    for unused in panels[len(results.scenarios) :]:
+        unused.remove()
+    figure.legend(handles=_legend(results), loc="outside lower center", ncols=2 * columns, frameon=False)
+    return figure
+
+
+def draw_curve(axes: Axes, curve: Curve, optimum: float, look: Mapping[str, Any], label: str | None = None) -> None:
+    """Draw the mean over the trials with its interval; nothing where there was no evaluation."""
+    if not len(curve.episodes):
+        return
+    if len(curve.scores) > 1:
+        low, high = t_interval(curve.scores, optimum)
+        axes.fill_between(curve.episodes, low, high, color=look["color"], alpha=BAND, linewidth=0)
+    marker = "o" if len(curve.episodes) == 1 else ""
+    axes.plot(curve.episodes, curve.scores.mean(axis=0), marker=marker, linewidth=1.5, label=label, **look)
+
+
+def _legend(results: Results) -> list[Artist]:
+    of = f"mean of {results.trials} trials" if results.trials > 1 else "one trial"
+    curves: list[Artist] = [
+        Line2D([], [], linewidth=1.5, label=f"{agent}, {of}", **CURVES[agent]) for agent in results.agents
+    ]
+    band = [Patch(color="black", alpha=BAND, linewidth=0, label="95 % interval")] if results.trials > 1 else []
+    optimum = Line2D([], [], label="optimum", **OPTIMUM)
+    builder = Line2D([], [], label="scripted builder", **BUILDER)
+    return [*curves, *band, optimum, builder]
 
 
 STUDY = Study(

@@ -13,6 +13,7 @@ from mc_nested.learn.agents import AGENT_SPECS
 from mc_nested.learn.preset import Preset
 from mc_nested.studies.arm import Arm
 from mc_nested.studies.change import Change, shipped_changes
+from mc_nested.studies.claim_text import found_of, row_of
 from mc_nested.studies.claims.judge import judge
 from mc_nested.studies.config import StudyConfig
 from mc_nested.studies.inference import ALPHA
@@ -110,9 +111,7 @@ def report_on(choices: Sequence[JudgedChoice]) -> Report:
         found={
             "claims": [
                 {
-                    "letter": base.claim.letter,
-                    "claim": base.claim.title,
-                    "verdict": base.verdict.value,
+                    **found_of(base),
                     "choices": {each.name: each.verdicts[base.claim.letter].value for each in choices[1:]},
                 }
                 for base in choices[0].claims
@@ -142,7 +141,7 @@ def _shown(choices: Sequence[JudgedChoice]) -> Table:
     for base in choices[0].claims:
         counted = Counter(each.verdicts[base.claim.letter].value for each in choices[1:])
         others = ", ".join(f"{count} {verdict}" for verdict, count in sorted(counted.items()))
-        rows.append((f"({base.claim.letter})", base.claim.title, base.words, others))
+        rows.append((*row_of(base), others))
     return Table(("", "the paper's claim", "as it is", "under the other choices"), rows)
 
 

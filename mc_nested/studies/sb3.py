@@ -18,7 +18,6 @@ from mc_nested.arena.env import highest_observation
 from mc_nested.arena.scenario import Scenario
 from mc_nested.arena.single import SingleAgentVectorEnv
 from mc_nested.arrays import Int64s
-from mc_nested.atomic_file import refused_as
 from mc_nested.errors import PresetError, RunError
 from mc_nested.learn.episode_log import EvaluationRow
 from mc_nested.learn.exploration.schedules import epsilon_after
@@ -138,7 +137,7 @@ class Sb3Dqn:
 
 
 class Sb3Training:
-    """Trains a job of one run. A stopped run starts over, and goes the same way: its seed decides all.
+    """Trains a job of one run, as a JobTraining does. A stopped run starts over, and goes the same way by its seed.
 
     Args:
         job: what is trained, with the single agent's spec.
@@ -175,7 +174,7 @@ class Sb3Training:
     @property
     def finished(self) -> bool:
         rows, preset = self.evaluation_rows, self.job.preset
-        at_optimum = self.job.stop_at_optimum and bool(rows) and rows[-1].score >= self._scenario.optimum
+        at_optimum = self.job.arm.stop_at_optimum and bool(rows) and rows[-1].score >= self._scenario.optimum
         return at_optimum or self._env.episodes >= preset.episodes
 
     @property
@@ -214,8 +213,7 @@ class Sb3Training:
                 )
             ],
         )
-        with refused_as(RunError, self._folder, "make room"):
-            write_outcome(self._folder, outcome)
+        write_outcome(self._folder, outcome)
 
     def _evaluate(self) -> None:
         env = self._evaluation_env

@@ -18,7 +18,7 @@ from mc_nested.learn.preset import Preset, load_preset
 from mc_nested.studies.arm import Arm
 from mc_nested.studies.config import StudyConfig
 from mc_nested.studies.table import Table
-from mc_nested.studies.trial import Outcomes, Trial, trials_of
+from mc_nested.studies.trial import Trial
 
 SHIPPED = ("reproduce", "robustness", "beyond", "objectives", "sweep", "ablation", "benchmark")
 """The studies by name: each is declared in the module of that name, as STUDY."""
@@ -112,10 +112,6 @@ class Study:
     further_files: Sequence[str] = ()
     notes: Callable[[StudyOptions], dict[str, str]] = lambda _: {}
     folder: str = ""
-
-    def report_on(self, config: StudyConfig, outcomes: Outcomes) -> Report:
-        """Return the report on the outcomes of all jobs."""
-        return self.report(config, trials_of(config.loaded_arms(), outcomes))
 
 
 def write_report(folder: Path, study: Study, report: Report) -> None:

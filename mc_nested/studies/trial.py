@@ -58,10 +58,11 @@ class Trial:
 
 def trials_of(arms: Iterable[Arm], outcomes: Outcomes) -> list[Trial]:
     """Return the trials, arm by arm, scenario by scenario, however they were cut into jobs."""
-    found: dict[tuple[str, str, int], tuple[RunOutcome, JobOutcome]] = {}
-    for job, outcome in outcomes:
-        for group, scenario, number, run in zip(job.groups, job.scenarios, job.trials, outcome.runs, strict=True):
-            found[group, scenario.name, number] = run, outcome
+    found = {
+        (run.arm.name, run.scenario.name, run.trial): (of_run, outcome)
+        for job, outcome in outcomes
+        for run, of_run in zip(job.runs, outcome.runs, strict=True)
+    }
     trials = []
     for arm in arms:
         for place, scenario in enumerate(arm.scenarios):

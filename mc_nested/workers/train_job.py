@@ -10,13 +10,17 @@ from mc_nested.errors import RunError, UserError
 from mc_nested.learn.runs.folder_lock import folder_lock
 from mc_nested.report.tensorboard import FOLDER, TensorBoard, is_installed
 from mc_nested.studies.job import Job
-from mc_nested.studies.job_training import JobTraining, TrainedJob, agents_trainer, team_of_job
+from mc_nested.studies.job_training import JobTraining, agents_trainer, team_of_job
+from mc_nested.studies.sb3 import Sb3Training
 from mc_nested.workers.executor import JobEnded, JobReport
 from sim.grid import GridVectorEnv
 from sim.team_grid import team_arenas
 
 PATIENCE_S = 10.0
 """Seconds that a process whose parent was killed may take to save the job that another goes on with."""
+
+TrainedJob = JobTraining | Sb3Training
+"""A job that is trained in its folder, by whatever algorithm."""
 
 Report = Callable[[JobReport], bool]
 """Is told how far a job has got; returns whether the job shall go on."""
@@ -47,10 +51,8 @@ def _training_of(job: Job, folder: Path) -> TrainedJob:
     if team := team_of_job(job):
         return JobTraining(job, folder, agents_trainer(job, team_arenas(team, len(job.trials))))
     arenas = GridVectorEnv(job.scenarios)
-    if job.library is None:
+    if job.arm.library is None:
         return JobTraining(job, folder, agents_trainer(job, arenas))
-    from mc_nested.studies.sb3 import Sb3Training  # only where the library is asked for
-
     return Sb3Training(job, folder, arenas, GridVectorEnv(job.scenarios))
 
 
@@ -58,10 +60,7 @@ def _events(training: TrainedJob, folder: Path) -> TensorBoard | None:
     if not (isinstance(training, JobTraining) and is_installed()):
         return None
     job = training.job
-    names = (
-        re.sub(r"[^\w.-]+", "-", f"{group}-{scenario.name}-{trial}")
-        for group, scenario, trial in zip(job.groups, job.scenarios, job.trials, strict=True)
-    )
+    names = (re.sub(r"[^\w.-]+", "-", f"{run.arm.name}-{run.scenario.name}-{run.trial}") for run in job.runs)
     with refused_as(RunError, folder, "make room"):
         return TensorBoard([folder.parent.parent / FOLDER / name for name in names], training.trainer)
 

@@ -6,10 +6,10 @@ import tomlkit
 
 from mc_nested.arena.scenario import Material, Scenario
 from mc_nested.arena.scenario_file import draw_grid, table_of
-from mc_nested.learn.agents import AGENT_SPECS
 from mc_nested.learn.preset import Preset, load_preset
 from mc_nested.learn.runs.run_config import RunConfig
-from mc_nested.studies.job import Job, Run, cut_into_jobs
+from mc_nested.studies.arm import Arm, Run
+from mc_nested.studies.job import Job, cut_into_jobs
 
 MATERIALS = Material("wood", -5.0, "oak_planks"), Material("stone", 10.0, "stone")
 
@@ -55,7 +55,7 @@ def scenario_text(scenario: Scenario) -> str:
 
 def runs_of(agents: list[str], scenarios: list[Scenario], trials: int, preset: Preset) -> list[Run]:
     return [
-        Run(agent, AGENT_SPECS[agent], preset, scenario, trial)
+        Run(Arm(agent, preset, (), trials, agent), scenario, trial)
         for agent in agents
         for scenario in scenarios
         for trial in range(trials)

@@ -75,8 +75,8 @@ def test_every_trial_of_every_part_on_every_design_is_trained_once() -> None:
     assert sorted(trained) == sorted(
         (name, design, trial) for name in PARTS for design in ("bar", "dot") for trial in (0, 1)
     )
-    assert all(job.stop_at_optimum for job in jobs)
-    assert not any(job.library for job in jobs)
+    assert all(job.arm.stop_at_optimum for job in jobs)
+    assert not any(job.arm.library for job in jobs)
 
 
 def test_trials_with_imagination_train_one_by_one_and_others_side_by_side() -> None:

@@ -51,7 +51,9 @@ def trial_of(run: int) -> int:
 
 def test_jobs_come_design_by_design_and_sb3_trains_each_trial_alone() -> None:
     jobs = config().cut()
-    found = [(job.groups[0], job.scenarios[0].name, [trial_of(run) for run in job.trials], job.library) for job in jobs]
+    found = [
+        (job.groups[0], job.scenarios[0].name, [trial_of(run) for run in job.trials], job.arm.library) for job in jobs
+    ]
     assert found == [
         ("sb3, dqn", "dot", [0], "stable-baselines3"),
         ("sb3, dqn", "dot", [1], "stable-baselines3"),
@@ -60,9 +62,9 @@ def test_jobs_come_design_by_design_and_sb3_trains_each_trial_alone() -> None:
         ("sb3, dqn", "bar", [1], "stable-baselines3"),
         ("nested, small", "bar", [0, 1], None),
     ]
-    assert all(job.stop_at_optimum and len(set(job.scenarios)) == 1 for job in jobs)
+    assert all(job.arm.stop_at_optimum and len(set(job.scenarios)) == 1 for job in jobs)
     assert len({job.name for job in jobs}) == len(jobs)
-    assert {job.spec for job in jobs if job.library} == {AGENT_SPECS["single"]}
+    assert {job.arm.spec for job in jobs if job.arm.library} == {AGENT_SPECS["single"]}
 
 
 def test_run_numbers_are_distinct_and_independent_of_the_number_of_trials() -> None:
@@ -75,7 +77,7 @@ def test_run_numbers_are_distinct_and_independent_of_the_number_of_trials() -> N
 
 
 def test_a_trial_ends_at_its_first_greedy_episode_at_the_optimum(tmp_path: Path) -> None:
-    job = next(job for job in config().cut() if not job.library)
+    job = next(job for job in config().cut() if not job.arm.library)
     trainer = agents_trainer(job, GridVectorEnv(job.scenarios))
     trainer._optimum[:] = -1e9
     training = JobTraining(job, tmp_path, trainer)

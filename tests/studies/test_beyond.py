@@ -37,7 +37,7 @@ def test_every_arm_and_scenario_is_unique_and_every_topic_has_arms() -> None:
     keys = [(arm.name, scenario.name) for arm in found() for scenario in arm.scenarios]
     assert len(set(keys)) == len(keys)
     assert {arm.labels["topic"] for arm in found()} == {"images", "parts", "materials", "cooperation"}
-    assert {arm.builders.count for arm in found() if arm.builders} == {1, 2, 3, 4}
+    assert {arm.builders for arm in found() if arm.builders} == {1, 2, 3, 4}
 
 
 def test_images_have_three_trials_on_slow_designs_unless_the_option_trials_is_given() -> None:

@@ -7,8 +7,7 @@ from xml.etree import ElementTree
 import cv2
 import pytest
 
-from mc_nested.studies.figure5 import figure5
-from mc_nested.studies.reproduce import STUDY
+from mc_nested.studies.reproduce import STUDY, figure5
 from mc_nested.studies.results import Results
 from mc_nested.studies.study import Report, write_report
 from tests.studies.claims.made_results import level, made, the_papers

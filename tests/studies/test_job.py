@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 from itertools import pairwise
+from typing import Any
 
 from hypothesis import given
 from hypothesis import strategies as some
@@ -9,7 +10,8 @@ from hypothesis import strategies as some
 from mc_nested.arena.scenario_file import load_scenario
 from mc_nested.learn.agents import AGENT_SPECS
 from mc_nested.learn.preset import load_preset
-from mc_nested.studies.job import Job, Run, cut_into_jobs, side_by_side
+from mc_nested.studies.arm import SB3, Arm, Run
+from mc_nested.studies.job import Job, cut_into_jobs, side_by_side
 from tests.learn.made_experiments import BAR, DOT, MATERIALS, runs_of, small_preset
 
 PRESETS = [small_preset(10), small_preset(100)]
@@ -17,7 +19,7 @@ SCENARIOS = [DOT, BAR, replace(DOT, name="of one material", materials=MATERIALS[
 
 SOME_RUNS = some.lists(
     some.builds(
-        lambda agent, preset, scenario, trial: Run(agent, AGENT_SPECS[agent], preset, scenario, trial),
+        lambda agent, preset, scenario, trial: Run(Arm(agent, preset, (), 6, agent), scenario, trial),
         some.sampled_from(list(AGENT_SPECS)),
         some.sampled_from(PRESETS),
         some.sampled_from(SCENARIOS),
@@ -28,12 +30,12 @@ SOME_RUNS = some.lists(
 )
 
 
+def changed(run: Run, **arm: Any) -> Run:
+    return replace(run, arm=replace(run.arm, **arm))
+
+
 def in_order(jobs: list[Job]) -> list[Run]:
-    return [
-        Run(group, job.spec, job.preset, scenario, trial)
-        for job in sorted(jobs, key=lambda job: job.name)
-        for group, scenario, trial in zip(job.groups, job.scenarios, job.trials, strict=True)
-    ]
+    return [run for job in sorted(jobs, key=lambda job: job.name) for run in job.runs]
 
 
 @given(SOME_RUNS, some.integers(1, 9))
@@ -48,9 +50,10 @@ def test_every_run_is_in_one_job_and_the_longest_job_comes_first(runs: list[Run]
 def test_a_job_has_one_agent_one_preset_and_one_number_of_materials(runs: list[Run], parts: int) -> None:
     for job in cut_into_jobs(runs, parts, seed=0):
         assert len({len(scenario.materials) for scenario in job.scenarios}) == 1
-        assert {AGENT_SPECS[group] for group in job.groups} == {job.spec}
+        assert {AGENT_SPECS[group] for group in job.groups} == {job.arm.spec}
     kinds = 1 + sum(
-        (one.spec, one.preset, len(one.scenario.materials)) != (two.spec, two.preset, len(two.scenario.materials))
+        (one.arm.spec, one.arm.preset, len(one.scenario.materials))
+        != (two.arm.spec, two.arm.preset, len(two.scenario.materials))
         for one, two in pairwise(runs)
     )
     assert len(cut_into_jobs(runs, parts, seed=0)) <= kinds + parts - 1
@@ -95,7 +98,7 @@ def test_jobs_that_differ_in_runs_preset_seed_or_agent_have_different_identities
         cut_into_jobs(runs, 1, seed=1),
         cut_into_jobs(runs[1:], 1, seed=0),
         cut_into_jobs(shorter, 1, seed=0),
-        cut_into_jobs([replace(run, spec=AGENT_SPECS["single"]) for run in runs], 1, seed=0),
+        cut_into_jobs([changed(run, agent="single") for run in runs], 1, seed=0),
     ]
     identities = [str(job.identity()) for (job,) in jobs]
     assert len(set(identities)) == len(identities)
@@ -103,13 +106,13 @@ def test_jobs_that_differ_in_runs_preset_seed_or_agent_have_different_identities
 
 
 def test_a_jobs_identity_includes_stop_at_optimum_and_the_library() -> None:
-    job = cut_into_jobs(runs_of(["nested"], [DOT], 1, small_preset()), 1, seed=0)[0]
-    others = [replace(job, stop_at_optimum=True), replace(job, library="another")]
-    assert len({str(each.identity()) for each in (job, *others)}) == 3
+    (run,) = runs_of(["single"], [DOT], 1, small_preset())
+    kinds = [run, changed(run, stop_at_optimum=True), changed(run, agent=SB3)]
+    assert len({str(cut_into_jobs([each], 1, seed=0)[0].identity()) for each in kinds}) == 3
 
 
 def test_runs_with_a_limit_are_cut_into_small_jobs_of_one_design() -> None:
-    runs = [replace(run, together=2) for run in runs_of(["nested"], [DOT, BAR], 5, small_preset())]
+    runs = [changed(run, together=2) for run in runs_of(["nested"], [DOT, BAR], 5, small_preset())]
     jobs = cut_into_jobs(runs, 7, seed=0)
     assert [(job.scenarios[0].name, job.trials) for job in jobs] == [
         ("dot", (0, 1)),
@@ -123,7 +126,7 @@ def test_runs_with_a_limit_are_cut_into_small_jobs_of_one_design() -> None:
 
 def test_a_long_run_with_a_later_turn_comes_after_a_short_one() -> None:
     short, long = (runs_of(["nested"], [DOT], 1, small_preset(episodes))[0] for episodes in (10, 100))
-    jobs = cut_into_jobs([replace(long, together=1, turn=1), replace(short, together=1)], 1, seed=0)
+    jobs = cut_into_jobs([replace(changed(long, together=1), turn=1), changed(short, together=1)], 1, seed=0)
     assert [job.preset.episodes for job in jobs] == [10, 100]
 
 

@@ -2,20 +2,17 @@
 
 import re
 import shutil
-from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
 from mc_nested.arena.cooperative.team_env import TeamVectorEnv
 from mc_nested.errors import RunError
-from mc_nested.learn.agents import AGENT_SPECS, Agent
 from mc_nested.learn.builders import Networks
-from mc_nested.learn.episode_log import EpisodeRow, EvaluationRow
 from mc_nested.learn.runs.checkpoint import fingerprint
-from mc_nested.learn.training import Training
-from mc_nested.studies.job import Job, JobBuilders, cut_into_jobs
-from mc_nested.studies.job_training import JobTraining, SpendingCount, agents_trainer, team_of_job
+from mc_nested.studies.arm import Arm, Run
+from mc_nested.studies.job import Job, cut_into_jobs
+from mc_nested.studies.job_training import JobTraining, agents_trainer, team_of_job
 from mc_nested.studies.outcome import OUTCOME, JobOutcome, RunOutcome, outcome_of
 from sim.grid import GridVectorEnv
 from sim.team_grid import TeamGrid
@@ -154,47 +151,6 @@ def test_a_full_disk_is_reported_and_keeps_the_last_save(tmp_path: Path, monkeyp
     assert min(saved) > 0
 
 
-class MadeUp(Training):
-    """Two runs whose steps, updates and evaluations are told."""
-
-    def __init__(self) -> None:
-        preset, scenarios = small_preset(), [DOT, DOT]
-        super().__init__(scenarios, Agent(AGENT_SPECS["nested"], scenarios, preset, 0), preset, 0)
-
-    def train(self, run: int, steps: int, updates: int) -> None:
-        self.episode_rows.append(EpisodeRow(run, 1, 0.0, 0, steps, 0.1, 0.1))
-        self.agent.low_level.engine.updates[run] += updates
-
-    def evaluate(self, run: int) -> None:
-        self.evaluation_rows.append(EvaluationRow(run, 1, 0.0, 0, 9))
-
-
-def test_each_evaluation_has_its_own_runs_steps_and_updates() -> None:
-    trainer, spent = MadeUp(), SpendingCount(2)
-    trainer.train(0, steps=10, updates=7)
-    trainer.train(1, steps=20, updates=17)
-    spent.count(trainer)
-    trainer.train(0, steps=5, updates=5)
-    spent.count(trainer)
-    trainer.evaluate(0)
-    trainer.evaluate(1)
-    spent.count(trainer)
-    assert spent.at == [(15, 12), (20, 17)]
-
-
-def test_a_loaded_spending_count_continues_from_the_saved_one() -> None:
-    trainer, spent = MadeUp(), SpendingCount(2)
-    trainer.train(0, steps=10, updates=7)
-    trainer.evaluate(0)
-    spent.count(trainer)
-    again = SpendingCount(2)
-    again.load(spent.state(), trainer)
-    trainer.train(0, steps=4, updates=4)
-    trainer.evaluate(0)
-    again.count(trainer)
-    assert again.at == [(10, 7), (14, 11)]
-
-
 @pytest.mark.parametrize("agent", ["nested", "hierarchical", "single"])
 def test_the_last_evaluation_has_the_outcomes_total_steps_and_updates(agent: str, tmp_path: Path) -> None:
     job = one_job(agent, [DOT, BAR], 2)
@@ -215,8 +171,8 @@ def test_the_last_evaluation_has_the_outcomes_total_steps_and_updates(agent: str
 
 
 def team_job(builders: int, networks: Networks, trials: tuple[int, ...] = (0, 1)) -> Job:
-    job = replace(one_job("nested", [BAR], len(trials)), builders=JobBuilders(builders, networks))
-    return replace(job, trials=trials)
+    arm = Arm("nested", small_preset(), (), len(trials), builders=builders, networks=networks)
+    return Job("000", tuple(Run(arm, BAR, trial) for trial in trials), seed=3)
 
 
 def train_untouched(job: Job, folder: Path, stopped_at: int | None = None) -> JobOutcome:
@@ -262,7 +218,7 @@ def test_a_jobs_identity_includes_its_builders() -> None:
         team_job(2, "shared"),
         team_job(3, "shared"),
         team_job(2, "own"),
-        replace(team_job(2, "own"), builders=None),
+        one_job("nested", [BAR], 2),
     ]
     assert len({fingerprint(job.identity()) for job in jobs}) == 4
     assert jobs[-1].identity()["builders"] is None

@@ -11,7 +11,7 @@ from mc_nested.studies.power import MeanEffect, ShareEffect, deciding_trials
 
 
 def one(effect: MeanEffect | ShareEffect, trials: int, alpha: float = ALPHA) -> float:
-    return float(effect.power_for(np.array([trials]), alpha)[0])
+    return float(effect.power(np.array([trials]), alpha)[0])
 
 
 @pytest.mark.parametrize(("difference", "trials"), [(0.5, 27), (0.8, 12), (1.0, 8)])
@@ -67,7 +67,7 @@ def test_a_share_below_one_half_is_shown_against_the_claim() -> None:
 
 def test_a_share_needs_the_trials_from_which_its_power_stays_high() -> None:
     """The power of 0.7 is above 0.8 at 37 trials, and below again until 42: it rises in a saw-tooth."""
-    power = ShareEffect(0.7).power_for(np.arange(37, 60), ALPHA)
+    power = ShareEffect(0.7).power(np.arange(37, 60), ALPHA)
     assert power[0] >= 0.8 > power[4]
     assert (power[5:] >= 0.8).all()
     assert deciding_trials([ShareEffect(0.7)]) == 42
@@ -95,8 +95,8 @@ def test_one_line_against_a_claim_is_enough_at_its_share_of_alpha() -> None:
     against, for_it = MeanEffect(-2.0, 1.0), MeanEffect(5.0, 1.0)
     found = deciding_trials([against, for_it])
     assert found
-    assert float(against.power_against(np.array([found]), ALPHA / 2)[0]) >= 0.8
-    assert float(against.power_against(np.array([found - 1]), ALPHA / 2)[0]) < 0.8
+    assert float(against.opposite.power(np.array([found]), ALPHA / 2)[0]) >= 0.8
+    assert float(against.opposite.power(np.array([found - 1]), ALPHA / 2)[0]) < 0.8
 
 
 def test_no_number_of_trials_is_named_without_a_tested_line() -> None:

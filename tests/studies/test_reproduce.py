@@ -1,8 +1,7 @@
 """The paper's experiment as arms."""
 
 from mc_nested.arena.scenario_file import load_scenario
-from mc_nested.studies.arm import Arm
-from mc_nested.studies.job import Run
+from mc_nested.studies.arm import Arm, Run
 from mc_nested.studies.reproduce import LONGER_AGENTS, LONGER_SCENARIOS, arms
 from mc_nested.studies.study import StudyOptions
 
@@ -21,14 +20,14 @@ def runs_of(found: list[Arm]) -> list[Run]:
 def test_three_agents_on_three_designs_in_ten_trials_are_ninety_runs() -> None:
     runs = runs_of(asked([], THREE))
     assert len(runs) == 90
-    assert len({(run.group, run.scenario.name, run.trial) for run in runs}) == 90
-    assert [run.group for run in runs[::30]] == ["nested", "hierarchical", "single"]
+    assert len({(run.arm.name, run.scenario.name, run.trial) for run in runs}) == 90
+    assert [run.arm.name for run in runs[::30]] == ["nested", "hierarchical", "single"]
     assert [run.trial for run in runs[:11]] == [*range(10), 0]
 
 
 def test_agents_and_scenarios_of_claim_f_are_trained_for_longer() -> None:
     longer = runs_of(asked([], THREE, longer=10))[90:]
-    assert {(run.group, run.scenario.name, run.preset.episodes) for run in longer} == {
+    assert {(run.arm.name, run.scenario.name, run.arm.preset.episodes) for run in longer} == {
         (f"{agent}-longer", scenario, 300) for agent in LONGER_AGENTS for scenario in LONGER_SCENARIOS
     }
     assert len(longer) == 40

@@ -8,9 +8,9 @@ from mc_nested.arena.scenario_file import load_scenario
 from mc_nested.errors import ScenarioError
 from mc_nested.learn.agents import AGENT_SPECS
 from mc_nested.learn.preset import load_preset
-from mc_nested.studies.arm import spec_of
+from mc_nested.studies.arm import Run, spec_of
 from mc_nested.studies.change import Change
-from mc_nested.studies.job import Run, side_by_side
+from mc_nested.studies.job import side_by_side
 from mc_nested.studies.robustness import arms, open_choices
 from mc_nested.studies.study import StudyOptions
 from tests.learn.made_experiments import BAR, DOT
@@ -43,16 +43,16 @@ def test_the_choices_include_those_that_the_paper_leaves_open() -> None:
 
 def test_every_run_of_every_choice_is_unique() -> None:
     runs = runs_of()
-    assert len({(run.group, run.scenario.name, run.trial) for run in runs}) == len(runs)
+    assert len({(run.arm.name, run.scenario.name, run.trial) for run in runs}) == len(runs)
     assert len(runs) == len(CHOICES) * 3 * 3 * 2
 
 
 def test_every_agent_has_every_choice_and_runs_of_one_kind_stand_side_by_side() -> None:
     runs = runs_of()
-    assert {run.group for run in runs} == {f"{choice.name}, {agent}" for choice in CHOICES for agent in AGENT_SPECS}
-    kinds = [(run.spec, run.preset) for run in runs]
+    assert {run.arm.name for run in runs} == {f"{choice.name}, {agent}" for choice in CHOICES for agent in AGENT_SPECS}
+    kinds = [(run.arm.spec, run.arm.preset) for run in runs]
     assert sum(one != two for one, two in pairwise(kinds)) + 1 == len(set(map(str, kinds)))
-    with_the_base = {run.group for run in runs if (run.spec, run.preset) == kinds[0]}
+    with_the_base = {run.arm.name for run in runs if (run.arm.spec, run.arm.preset) == kinds[0]}
     assert {"base, nested", "start: centre, nested", "designs: smaller, nested", "step limit: 40, nested"} <= (
         with_the_base
     )

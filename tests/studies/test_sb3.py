@@ -8,11 +8,10 @@ from gymnasium.spaces import Discrete, MultiDiscrete
 
 from mc_nested.arena.builder import build
 from mc_nested.errors import RunError
-from mc_nested.learn.agents import AGENT_SPECS
 from mc_nested.studies import sb3
+from mc_nested.studies.arm import SB3, Arm, Run
 from mc_nested.studies.benchmark import baseline
 from mc_nested.studies.job import Job
-from mc_nested.studies.job_training import TrainedJob
 from mc_nested.studies.outcome import OUTCOME, JobOutcome, outcome_of
 from mc_nested.studies.sb3 import Sb3Dqn, Sb3Env, Sb3Training
 from sim.grid import GridVectorEnv
@@ -27,18 +26,19 @@ class NeverKnows(MadeModel):
 
 def job(episodes: int = 40, run: int = 4) -> Job:
     preset = baseline().model_copy(update={"episodes": episodes, "evaluate_every": 5})
-    return Job("0", AGENT_SPECS["single"], preset, ("sb3, dqn",), (BAR,), (run,), 3, True, "stable-baselines3")
+    arm = Arm("sb3, dqn", preset, (), 1, SB3, stop_at_optimum=True)
+    return Job("0", (Run(arm, BAR, run),), seed=3)
 
 
 def training(folder: Path, own: Job | None = None, model: type[MadeModel] = MadeModel) -> Sb3Training:
     return Sb3Training(own or job(), folder, GridVectorEnv([BAR]), GridVectorEnv([BAR]), model)
 
 
-def trained(own: TrainedJob) -> JobOutcome:
+def trained(own: Sb3Training) -> JobOutcome:
     while not own.finished:
         own.tick()
     own.finish()
-    outcome = outcome_of(own.job, Path(own._folder))  # type: ignore[attr-defined]  # its folder is its own
+    outcome = outcome_of(own.job, own._folder)
     assert outcome
     return outcome
 

@@ -9,9 +9,9 @@ from mc_nested.arena.scenario_file import load_scenario
 from mc_nested.errors import PresetError, ScenarioError
 from mc_nested.learn.agents import AGENT_SPECS
 from mc_nested.learn.preset import load_preset, shipped_presets
-from mc_nested.studies.arm import spec_of
+from mc_nested.studies.arm import Run, spec_of
 from mc_nested.studies.change import Change
-from mc_nested.studies.job import Run, side_by_side
+from mc_nested.studies.job import side_by_side
 from mc_nested.studies.study import StudyOptions
 from mc_nested.studies.sweep import arms, varied
 
@@ -54,7 +54,7 @@ def test_each_variant_changes_one_choice() -> None:
 @pytest.mark.parametrize("preset", shipped_presets())
 def test_every_shipped_preset_can_be_swept(preset: str) -> None:
     runs = runs_of(preset)
-    assert len({(run.group, run.scenario.name, run.trial) for run in runs}) == len(runs)
+    assert len({(run.arm.name, run.scenario.name, run.trial) for run in runs}) == len(runs)
 
 
 def test_a_preset_with_imagination_is_swept_without_choices_that_do_not_apply() -> None:
@@ -96,12 +96,12 @@ def test_an_invalid_variant_is_refused_with_its_name() -> None:
 
 def test_runs_that_differ_in_their_scenarios_alone_train_side_by_side() -> None:
     runs = runs_of()
-    kinds = [(run.spec, run.preset) for run in runs]
+    kinds = [(run.arm.spec, run.arm.preset) for run in runs]
     changes = sum(one != two for one, two in pairwise(kinds))
     assert all(kinds.index(kind) == place or kinds[place - 1] == kind for place, kind in enumerate(kinds))
-    beside_the_base = {run.group for run in runs if (run.spec, run.preset) == kinds[0]}
+    beside_the_base = {run.arm.name for run in runs if (run.arm.spec, run.arm.preset) == kinds[0]}
     assert {"base, nested", "start: near edge, middle", "step limit: 120"} <= beside_the_base
-    assert changes < len({run.group for run in runs}) - 1
+    assert changes < len({run.arm.name for run in runs}) - 1
 
 
 def test_variants_that_a_preset_or_a_design_can_not_take_are_left_out() -> None:

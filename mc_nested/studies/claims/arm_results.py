@@ -8,9 +8,8 @@ import numpy as np
 
 from mc_nested.arrays import Float64s
 from mc_nested.studies.arm import Arm
-from mc_nested.studies.job import JobBuilders
-from mc_nested.studies.measures import LAST
 from mc_nested.studies.outcome import Evaluated
+from mc_nested.studies.results import LAST
 from mc_nested.studies.trial import Trial, on_each
 
 Budget = Literal["steps", "updates"]
@@ -57,11 +56,6 @@ class ArmResults:
     def stops(self) -> bool:
         """Whether a trial ends at its first greedy episode at the optimum."""
         return self.arm.stop_at_optimum
-
-    @property
-    def team(self) -> JobBuilders | None:
-        """Who shares an arena; None where an agent builds alone."""
-        return self.arm.builders
 
     @property
     def key(self) -> tuple[str, str, str]:

@@ -85,13 +85,13 @@ def of_topic(arms: Arms, topic: str) -> list[ArmResults]:
 
 def teams_of(arms: Sequence[ArmResults], networks: Networks) -> dict[int, ArmResults]:
     """Return the teams whose builders learn in that way, by how many they are: two or more."""
-    teams = {arm.team.count: arm for arm in arms if arm.team and arm.team.networks == networks}
+    teams = {arm.arm.builders or 1: arm for arm in arms if arm.arm.networks == networks}
     return {count: arm for count, arm in teams.items() if count > 1}
 
 
 def alone_among(arms: Sequence[ArmResults]) -> ArmResults:
     """Return the arm of one builder."""
-    return next(arm for arm in arms if arm.team and arm.team.count == 1)
+    return next(arm for arm in arms if arm.arm.builders == 1)
 
 
 def equal_budget(arms: Sequence[ArmResults], of: Budget) -> int:

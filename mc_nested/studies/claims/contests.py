@@ -5,9 +5,9 @@ from functools import partial
 
 from mc_nested.arrays import Float64s
 from mc_nested.studies.inference import Tails, ahead, alike, coverage, mean_interval
-from mc_nested.studies.measures import Curve
 from mc_nested.studies.power import TestedEffect
-from mc_nested.studies.verdicts import Evidence, Verdict
+from mc_nested.studies.results import Curve
+from mc_nested.studies.verdicts import Evidence
 
 NESTED, HIERARCHICAL, SINGLE = "nested", "hierarchical", "single"
 
@@ -58,7 +58,7 @@ def contest_of(curves: Curves, scenario: str, measure: str, agents: tuple[str, s
     what = f"{scenario}, {measure}"
     absent = [agent for agent in agents if (agent, scenario) not in curves]
     if absent:
-        return Evidence(what, counted=Verdict.NOT_JUDGED, missing=f"{' and '.join(absent)} not trained there")
+        return Evidence(what, missing=f"{' and '.join(absent)} not trained there")
     left, right = (MEASURES[measure](curves[agent, scenario]) for agent in agents)
     if not len(left) or not len(right):
         return Evidence(what, missing="too few evaluations for this measure")

@@ -132,7 +132,7 @@ class DaskJobs:
             package = packed(job, folder)
             with self._lock:  # until it is known, nothing is heard of it
                 # In the jobs' own order, the longest first: unless told, Dask would order them by name.
-                asked = own_versions(job.library), job.library, package, self._topic
+                asked = own_versions(job.arm.library), job.arm.library, package, self._topic
                 trained = self._executor.submit(train_on_worker, *asked, key=key, priority=-len(self._futures))
                 self._futures[job.name] = trained
         trained.add_done_callback(lambda done: self._land(job, folder, done, landed, tries - 1))

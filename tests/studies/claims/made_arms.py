@@ -4,12 +4,11 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 
 from mc_nested.arena.scenario_file import load_scenario
-from mc_nested.learn.builders import NETWORKS
+from mc_nested.learn.builders import NETWORKS, Networks
 from mc_nested.learn.preset import load_preset
 from mc_nested.studies.arm import Arm
 from mc_nested.studies.beyond import with_materials
 from mc_nested.studies.claims.arm_results import ArmResults, Arms
-from mc_nested.studies.job import JobBuilders
 from mc_nested.studies.outcome import Evaluated, RunOutcome
 from mc_nested.studies.trial import Trial
 
@@ -42,7 +41,7 @@ def arm(
     materials: int = 2,
     networks: int = 2,
     stops: bool = False,
-    team: JobBuilders | None = None,
+    team: tuple[int | None, Networks] = (None, "shared"),
 ) -> ArmResults:
     """Return the results of an arm on a design of that name, whose optimum is 21."""
     design = replace(with_materials(LINE, materials), name=scenario)
@@ -53,7 +52,8 @@ def arm(
         len(trials),
         labels={"topic": topic, "agent": name},
         stop_at_optimum=stops,
-        builders=team,
+        builders=team[0],
+        networks=team[1],
     )
     return ArmResults(
         [
@@ -116,9 +116,9 @@ def whole(means: Callable[[str, str, int], float] = lambda *_: 15.0, trials: int
     ]
     arms += many_main_actions("materials", (2, 4, 8), means, trials).values()
     alone = around(means("cooperation", "alone", 1), trials)
-    arms.append(arm("cooperation", "1 builder", alone, team=JobBuilders(1, "shared")))
+    arms.append(arm("cooperation", "1 builder", alone, team=(1, "shared")))
     for count in (2, 3, 4):
         for kind in NETWORKS:
             scores = around(means("cooperation", kind, count), trials)
-            arms.append(arm("cooperation", f"{count} builders, {kind}", scores, team=JobBuilders(count, kind)))
+            arms.append(arm("cooperation", f"{count} builders, {kind}", scores, team=(count, kind)))
     return {each.key: each for each in arms}

@@ -5,8 +5,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from mc_nested.studies.measures import Curve
-from mc_nested.studies.results import Cost, Results
+from mc_nested.studies.results import Cost, Curve, Results
 
 OPTIMUM = {"line": 21.0, "zigzag": 21.0, "diamond": 26.0, "hut": 15.0}
 SECONDS = {"nested": 6.6, "hierarchical": 10.0, "single": 4.6}

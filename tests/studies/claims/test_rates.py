@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 from mc_nested.studies.claims import contests
-from mc_nested.studies.claims.scores import (
+from mc_nested.studies.claims.judge import (
     above_single,
     ahead_of_single_early,
     ahead_on_the_line,
