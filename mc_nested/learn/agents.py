@@ -31,7 +31,7 @@ from mc_nested.learn.dqn.states import ORDER_PLANES, REACH_PLANES, PlaneStates, 
 from mc_nested.learn.learner import CHOICE_NUMBERS, Learner, summed_by_run
 from mc_nested.learn.objectives.arenas import side_for
 from mc_nested.learn.preset import Preset
-from mc_nested.learn.streams import initial_stream
+from mc_nested.learn.streams import Purpose, stream
 from mc_nested.toml_file import one_of
 
 IMAGE = "image"
@@ -121,7 +121,7 @@ class Agent:
         check_exploration(spec, preset)
         check_parts(scenarios, preset)
         self.runs = tuple(range(len(scenarios)) if runs is None else runs)
-        streams = [initial_stream(seed, run) for run in self.runs]
+        streams = [stream(Purpose.INITIAL, seed, run) for run in self.runs]
         self._materials = len(scenarios[0].materials)
         self.size = max(scenario.size for scenario in scenarios)
         self.spec = spec

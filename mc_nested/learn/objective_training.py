@@ -19,7 +19,7 @@ from mc_nested.learn.objective_lessons import MainLessons, NestedLessons
 from mc_nested.learn.objectives.decide import ObjectiveAgent, built_by_the_rules
 from mc_nested.learn.objectives.networks import ReachNetwork
 from mc_nested.learn.preset import Preset
-from mc_nested.learn.streams import practice_stream
+from mc_nested.learn.streams import Purpose, stream
 from mc_nested.learn.training import Training
 
 SAID_EVERY = 1000
@@ -46,7 +46,7 @@ class ObjectivesTraining(Training):
 
     def tick(self) -> None:
         """Do a round of lessons: in every arena a step of the nested agent, or an objective of the main agent."""
-        random = practice_stream(self._seed, self.agent.runs[0], self.ticks)
+        random = stream(Purpose.PRACTICE, self._seed, self.agent.runs[0], self.ticks)
         if self._nested.updates < self._rule.nested_updates:
             said = self._nested.updates // SAID_EVERY
             self._nested.round(random)

@@ -17,7 +17,7 @@ from mc_nested.learn.episode_log import EpisodeRow, EvaluationRow, rows_of_table
 from mc_nested.learn.exploration.return_then_explore import Excursions
 from mc_nested.learn.exploration.schedules import decays_of, epsilon_after
 from mc_nested.learn.imagination.background_practice import Background
-from mc_nested.learn.learnt_game import LearntGame, LearntGameBesideIt, imagination_of
+from mc_nested.learn.learnt_game import LearntGame, imagination_of
 from mc_nested.learn.practice import Practice
 from mc_nested.learn.preset import Preset
 from mc_nested.learn.unknown_design import Tries, UnknownDesigns
@@ -176,6 +176,4 @@ def practice_of(
     imagination = imagination_of(agent, scenarios, preset, seed)
     if imagination is None:
         return Practice(agent, preset)
-    if background:
-        return LearntGameBesideIt(agent, preset, imagination, scenarios, background)
-    return LearntGame(agent, preset, imagination, scenarios)
+    return LearntGame(agent, preset, imagination, scenarios, background)

@@ -1,7 +1,7 @@
 """The agent with objectives where nobody tells it the design: what it believes takes the design's place.
 
 Beliefs come from what the real steps were paid (learn/imagination/). Whenever a block has landed, they say which cells
-the next ones are for (candidates.py), and the two networks that come with the package get there. Nothing is trained
+the next ones are for (beliefs.py), and the two networks that come with the package get there. Nothing is trained
 between two episodes: the agent is what it has seen.
 """
 
@@ -17,8 +17,7 @@ from mc_nested.arena.vector import NO_ACTION
 from mc_nested.arrays import Arrays, Bools, Float64s, Int64s, named_for, part_of
 from mc_nested.learn.agents import AGENT_SPECS, Agent
 from mc_nested.learn.exploration.schedules import NEVER
-from mc_nested.learn.imagination.beliefs import Belief, Beliefs, believe, count_try
-from mc_nested.learn.imagination.candidates import candidates
+from mc_nested.learn.imagination.beliefs import Belief, Beliefs, believe, candidates, count_try
 from mc_nested.learn.imagination.experience import Experience, RealStep
 from mc_nested.learn.imagination.imagination import GivenFacts
 from mc_nested.learn.imagination.known_arena import KnownArena, known_arena

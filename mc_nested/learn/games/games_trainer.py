@@ -28,7 +28,7 @@ from mc_nested.learn.games.episode import EpisodeOut, EpisodePlan, EpisodesOut, 
 from mc_nested.learn.learner import CHOICE_NUMBERS
 from mc_nested.learn.practice import Step
 from mc_nested.learn.preset import Preset
-from mc_nested.learn.streams import episode_stream, plan_stream
+from mc_nested.learn.streams import Purpose, stream
 from mc_nested.learn.training import Training
 
 PROCESSES = 1 << 62
@@ -81,7 +81,7 @@ class GamesTrainer(Training):
         if self.finished:
             raise ValueError("the run is finished: there is nothing left to play")
         self._out.leave(game)
-        random = plan_stream(self._seed, self.agent.runs[0], self._planned)
+        random = stream(Purpose.PLANS, self._seed, self.agent.runs[0], self._planned)
         is_begun_from = self._last_evaluation < 0  # a policy from elsewhere is still to be evaluated as it is
         is_due = self._is_evaluation_due()
         self.practice.before_choice(RUN[:0] if is_begun_from else RUN, self._out.materials)
@@ -181,7 +181,7 @@ class GamesTrainer(Training):
 
     def _learn(self, out: EpisodeOut, played: PlayedEpisode, materials: Int64s) -> None:
         """Learn from the episode as if it were played now, step by step; nothing is stored of an evaluation."""
-        random = episode_stream(self._seed, self.agent.runs[0], out.plan.number)
+        random = stream(Purpose.EPISODES, self._seed, self.agent.runs[0], out.plan.number)
         batch, seen = self.preset.update.batch, played.observations
         states = self.agent.low_level_states(seen, materials)
         draws = random.random((played.steps, 1, self.preset.updates_a_step * batch))

@@ -32,6 +32,17 @@ class Background(Protocol):
         """
 
 
+class Foreground:
+    """No background: the game waits until the work is done."""
+
+    def begin(self, work: Callable[[GoesOn], None]) -> None:
+        """Do that work, to its end."""
+        work(lambda: True)
+
+    def end(self, longer_s: float = 0.0) -> None:
+        """Do nothing: it has ended."""
+
+
 class BackgroundThread:
     """Does its work in a thread. It goes on no longer than the main thread lives."""
 

@@ -33,7 +33,7 @@ from mc_nested.learn.imagination.practice_session import (
 )
 from mc_nested.learn.learner import CHOICE_NUMBERS, Learner
 from mc_nested.learn.preset import ImaginationRule, Preset
-from mc_nested.learn.streams import practice_stream
+from mc_nested.learn.streams import Purpose, stream
 
 THOROUGH = 0.999
 """Replaces ``enough`` beside other games: a policy that leaves a block over would take all the steps of an episode."""
@@ -106,7 +106,9 @@ class Imagination:
 
     def stream(self, run: int, number: int | None = None) -> Generator:
         """Return the random numbers of that run's practice of that number; unless given, of that before its episode."""
-        return practice_stream(self._seed, self._numbers[run], self.episodes(run) if number is None else number)
+        return stream(
+            Purpose.PRACTICE, self._seed, self._numbers[run], self.episodes(run) if number is None else number
+        )
 
     def beliefs(self, run: int, rules: LearntRules | None = None, elsewhere: Collection[Cell] = ()) -> Beliefs:
         """Return what that run thinks of every cell, by its rules.

@@ -24,10 +24,14 @@ EXPONENT = np.uint32(0x7F800000)
 """The bits of a 32-bit float's exponent: all are set where a number is infinite or nan."""
 
 
-class _Networks(NamedTuple):
-    """What an update changes, (rows, parameters): the online networks and Adam's moments; ``updates`` is (rows,)."""
+class Networks(NamedTuple):
+    """What updates change: the online and target networks and Adam's moments, (rows, parameters) each, and a count.
+
+    ``updates`` is (rows,). Of one row alone: (parameters,) each, and (1,).
+    """
 
     online: Float32s
+    target: Float32s
     first_moment: Float32s
     second_moment: Float32s
     updates: Int64s
@@ -36,13 +40,12 @@ class _Networks(NamedTuple):
 class _StateTable(NamedTuple):
     """What is known of every state: the features, where each named row's begin (k,), and the target's values.
 
-    Without a table of values, (rows, 0, actions), a batch's come from the target networks, (rows, parameters).
+    Without a table of values, (rows, 0, actions), a batch's come from the target networks.
     """
 
     parts: StateParts
     first: Int64s
     target_values: Float32s
-    target: Float32s
 
 
 class _Workspace(NamedTuple):
@@ -71,10 +74,10 @@ class CompiledEngine:
     """
 
     def __init__(self, space: StateSpace, sizes: Sizes, rule: UpdateRule, online: Float32s) -> None:
-        self.space, self.sizes, self.rule, self.online = space, sizes, rule, online
-        self.target = online.copy()
-        self.updates: Int64s = np.zeros(len(online), dtype=np.int64)
-        self._first_moment, self._second_moment = np.zeros_like(online), np.zeros_like(online)
+        self.space, self.sizes, self.rule = space, sizes, rule
+        moments = np.zeros_like(online), np.zeros_like(online)
+        self._networks = Networks(online, online.copy(), *moments, np.zeros(len(online), np.int64))
+        self.online, self.target, self.updates = online, self._networks.target, self._networks.updates
         tabulated = table_pays(space.count, rule.batch, rule.target_period)
         self._target_values = TargetValues(space, sizes, self.target, tabulated)
         self.last = LastBatches(len(online), rule)
@@ -82,7 +85,6 @@ class CompiledEngine:
         self._widths = np.array(sizes, dtype=np.int64)
         self._acting = hidden_for(sizes, 1)
         self._parts = tuple(space.parts)
-        self._networks = self.online, self._first_moment, self._second_moment, self.updates
         self._learning = tuple(hidden_for(sizes, rule.batch) for _ in _Workspace._fields)
         self._estimates = self.last.values, self.last.errors
 
@@ -106,9 +108,9 @@ class CompiledEngine:
     def update(self, rows: Int64s, batch: Batch) -> Float32s:
         if batch.actions.shape != (len(rows), self.rule.batch):
             raise ValueError(f"batches of {batch.actions.shape}, not {(len(rows), self.rule.batch)}")
-        states = self._parts, self.space.first_of(rows), self._target_values.values, self.target
+        states = self._parts, self.space.first_of(rows), self._target_values.values
         how = self._widths, tuple(self.rule), self._learning, self._estimates
-        finite, renews = _update_rows(rows, self._networks, tuple(batch), states, *how)
+        finite, renews = _update_rows(rows, tuple(self._networks), tuple(batch), states, *how)
         if not finite:
             raise diverged(self.rule, self.updates[rows])
         if renews:
@@ -117,13 +119,9 @@ class CompiledEngine:
             self._target_values.renew(due, self.target[due])
         return self.last.errors.take(rows, axis=0)  # a third of the time of an index of many rows
 
-    def row(self, row: int) -> tuple[Float32s, Float32s, Float32s, Float32s, Int64s]:
-        """Return a row's online and target network, Adam's moments, (parameters,) each, and updates (1,), uncopied.
-
-        For what updates them itself.
-        """
-        moments = self._first_moment[row], self._second_moment[row]
-        return self.online[row], self.target[row], *moments, self.updates[row : row + 1]
+    def row(self, row: int) -> Networks:
+        """Return one row's networks, uncopied, for what updates them itself."""
+        return Networks._make([*(part[row] for part in self._networks[:-1]), self.updates[row : row + 1]])
 
     def check_finite(self, row: int, online: Float32s | None = None) -> None:
         """Raise DivergedError if a parameter of that row's online network, or of what it is to become, is no number."""
@@ -131,13 +129,7 @@ class CompiledEngine:
             raise diverged(self.rule, self.updates[row : row + 1])
 
     def state(self) -> dict[str, NDArray[Any]]:
-        return {
-            "online": self.online,
-            "target": self.target,
-            "first_moment": self._first_moment,
-            "second_moment": self._second_moment,
-            "updates": self.updates,
-        }
+        return self._networks._asdict()
 
     def load(self, state: Mapping[str, NDArray[Any]]) -> None:
         for name, own in self.state().items():
@@ -229,8 +221,8 @@ def _update_rows(
 
     Return whether all parameters are numbers afterwards, and whether any row's target is due.
     """
-    networks, batch, rule = _Networks(*of_networks), Batch(*of_batch), UpdateRule(*of_rule)
-    states = _StateTable(StateParts(*of_states[0]), of_states[1], of_states[2], of_states[3])
+    networks, batch, rule = Networks(*of_networks), Batch(*of_batch), UpdateRule(*of_rule)
+    states = _StateTable(StateParts(*of_states[0]), of_states[1], of_states[2])
     work, estimates = _Workspace(*of_work), _Estimates(*of_estimates)
     finite, renews = True, False
     count = batch.actions.shape[1]
@@ -248,7 +240,7 @@ def _update_rows(
         _look_up(batch.states[0, at], states.first[at], states.parts, inputs)
         _look_up(batch.states[1, at], states.first[at], states.parts, next_inputs)
         if not tabulated:
-            forward(states.target[row], sizes, next_inputs, work.next_hidden, next_targets)
+            forward(networks.target[row], sizes, next_inputs, work.next_hidden, next_targets)
         forward(online, sizes, next_inputs, work.next_hidden, next_values)
         forward(online, sizes, inputs, work.hidden, values)
         greedy_actions(next_values, greedy)

@@ -23,8 +23,8 @@ from mc_nested.errors import PresetError
 from mc_nested.learn.dqn.compiled_engine.networks import Sizes, initial_parameters
 from mc_nested.learn.dqn.engine import CNN, MLP, ORDER, REACH, NetworkForm
 from mc_nested.learn.dqn.states import PlaneStates, States, StateSpace, numbered
-from mc_nested.learn.dqn.torch_engine.layout import flat_of
 from mc_nested.learn.dqn.torch_engine.objective_networks import OrderModule, ReachModule
+from mc_nested.learn.dqn.torch_engine.rows import flat_of
 
 LARGEST_SIDE_OF_SMALL = 40
 """Planes of more cells a side are pictures: they get the deep Q-network's layers for pictures (Mnih et al., 2013)."""
