@@ -150,8 +150,3 @@ class MainChoices(OwnChoices):
         shape = self._preset.main.updates_an_episode, self._preset.update.batch
         streams = [stream(Purpose.MAIN_UPDATES, self._seed, self._agent.runs[row], step.tick) for row in rows.tolist()]
         return np.stack([each.random(shape) for each in streams], axis=1)
-
-
-def choices_of(agent: Agent, scenarios: Sequence[Scenario], preset: Preset, seed: int) -> OwnChoices:
-    """Return who chooses the materials for that agent, in runs of these scenarios."""
-    return MainChoices(agent, agent.main, scenarios, preset, seed) if agent.main else OwnChoices(agent)

@@ -47,6 +47,7 @@ class Learner:
         margin = imitation[0].margin if imitation else 0.0
         rule = UpdateRule(update.batch, update.learning_rate, update.target_period, update.huber_delta, margin)
         self.engine = made_engine(states, preset.engine_choice, rule, streams)
+        self.parameters = int(self.engine.online.shape[1])  # of one row's network
         self.replay = Replay(states, preset.replay_capacity)
         wanted = preset.prioritized
         self.priorities = Priorities(states.rows, FIRST_ROOM, wanted.alpha, wanted.beta) if wanted else None
@@ -56,11 +57,6 @@ class Learner:
         self._of_equal_weight = np.full((states.rows, update.batch), self._td_weight)
         self._not_imitated = np.zeros((states.rows, update.batch), dtype=np.bool_)
         self.best = BestEpisodes(states.rows, imitation[1], imitation[0].batch) if imitation else None
-
-    @property
-    def parameters(self) -> int:
-        """Parameters of one row's network."""
-        return int(self.engine.online.shape[1])
 
     def act(self, states: NDArray[Any], epsilon: Float64s, uniforms: Float64s, rows: Int64s | None = None) -> Int64s:
         """Return ε-greedy actions (k,) for states (k, …), ε (k,) and uniform numbers (k, 2); all rows unless named."""

@@ -58,20 +58,17 @@ class NetworkForm(NamedTuple):
 class Engine(Protocol):
     """Rows of Q-networks with their targets and optimisers (paper, section 2.4)."""
 
-    @property
-    def updates(self) -> Int64s:
-        """Updates that each row has had, (rows,)."""
+    updates: Int64s
+    """Updates that each row has had, (rows,)."""
 
     rule: UpdateRule
     """What an update does; another learning rate may be given on the way."""
 
-    @property
-    def last(self) -> "LastBatches":
-        """What each row's last update found."""
+    last: "LastBatches"
+    """What each row's last update found."""
 
-    @property
-    def form(self) -> NetworkForm:
-        """What each network is."""
+    form: NetworkForm
+    """What each network is."""
 
     @property
     def online(self) -> Float32s:

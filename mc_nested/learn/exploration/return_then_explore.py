@@ -24,7 +24,7 @@ from numpy.typing import NDArray
 
 from mc_nested.arena.env import BLOCKS_LEFT, X, Y
 from mc_nested.arena.scenario import DEFAULT_SIZE, Scenario
-from mc_nested.arrays import Arrays, Float64s, Int64s, named_for, part_of
+from mc_nested.arrays import Arrays, Float64s, Int64s, named_parts, part_of
 from mc_nested.learn.agents import Agent
 from mc_nested.learn.dqn.engine import Batch
 from mc_nested.learn.dqn.replay import Transitions
@@ -249,7 +249,6 @@ class Excursions(Practice):
             self._explorers[run].observe(EpisodeStep(*values))
 
     def end(self, runs: Int64s, materials: Int64s, scores: Float64s) -> None:  # noqa: ARG002 - the best is known by its steps
-        """End the episodes of the named runs (k,)."""
         for run in runs.tolist():
             last = {step.row for step in self._explorers[run].best}
             if self._explorers[run].end() and self._low_level.best:
@@ -280,12 +279,9 @@ class Excursions(Practice):
         return False
 
     def state(self) -> Arrays:
-        """Return everything that later steps depend on, by name."""
-        every = (named_for(str(run), explorer.state()) for run, explorer in enumerate(self._explorers))
-        return {name: kept for part in every for name, kept in part.items()}
+        return named_parts({str(run): explorer.state() for run, explorer in enumerate(self._explorers)})
 
     def load(self, state: Mapping[str, NDArray[Any]]) -> None:
-        """Continue from what ``state`` returned; KeyError or ValueError if its shape differs."""
         for run, explorer in enumerate(self._explorers):
             explorer.load(part_of(state, str(run)))
             if self._low_level.best:

@@ -49,14 +49,10 @@ def check_games(scenario: Scenario, preset: Preset) -> None:
 
 
 class GamesTrainer(Training):
-    """Trains one run until it has its episodes. Of its checkpoints a Trainer of one run can go on, and it of those.
+    """Trains one run until it has its episodes; arguments as ``Training``'s, of one run.
 
-    Args:
-        scenario: what is built.
-        agent: what is trained, in one run.
-        preset: the hyper-parameters; ``episodes`` as in the preset or as asked for.
-        seed: of all random choices; the same seed, and the same order of episodes, give the same training.
-        stop_at_optimum: finish at the first greedy evaluation at the scenario's optimum.
+    The same seed, and the same order of episodes, give the same training. Of its checkpoints a Trainer of one run can
+    go on, and it of those.
 
     Raises:
         PresetError: the preset explores, or the scenario is built, in a way that needs every step at once.

@@ -142,10 +142,7 @@ def _reached(lands: Cell, size: int) -> Bools:
 
 def _beside(cells: Bools) -> Bools:
     """Return the cells with one of these among the eight around them."""
-    size = len(cells)
-    padded = np.pad(cells, 1)
-    around = [padded[x : x + size, y : y + size] for x in range(3) for y in range(3)]
-    beside: Bools = np.logical_or.reduce(around)
+    beside: Bools = sliding_window_view(np.pad(cells, 1), (3, 3)).max((2, 3))
     return beside
 
 

@@ -14,7 +14,7 @@ from numpy.random import Generator
 from numpy.typing import NDArray
 
 from mc_nested.arena.action import Cell
-from mc_nested.arrays import Arrays, Bools, Float64s, Int64s, named_for, part_of
+from mc_nested.arrays import Arrays, Bools, Float64s, Int64s, named_for, named_parts, part_of
 from mc_nested.learn.dqn.states import numbered
 from mc_nested.learn.imagination.arena_step import expected_landings, imagined_arena
 from mc_nested.learn.imagination.beliefs import Belief, Beliefs, believe, evidence_of
@@ -110,13 +110,9 @@ class Imagination:
             Purpose.PRACTICE, self._seed, self._numbers[run], self.episodes(run) if number is None else number
         )
 
-    def beliefs(self, run: int, rules: LearntRules | None = None, elsewhere: Collection[Cell] = ()) -> Beliefs:
-        """Return what that run thinks of every cell, by its rules.
-
-        What is probed ``elsewhere`` is taken to pay nothing.
-        """
-        here, rule = self._given_facts[run], self._rule
-        rules = rules or self.rules(run)
+    def beliefs(self, run: int, elsewhere: Collection[Cell] = ()) -> Beliefs:
+        """Return what that run thinks of every cell; what is probed ``elsewhere`` is taken to pay nothing."""
+        here, rule, rules = self._given_facts[run], self._rule, self.rules(run)
         evidence = evidence_of(self._experience[run].steps, rules.lands, here.size)
         blocks = here.start[2]
         return believe(evidence, rules.lands, blocks, rule.optimism, rule.neighbours, elsewhere, rules.walls)
@@ -160,7 +156,7 @@ class Imagination:
         """
         seen, here = self._experience[run], self._given_facts[run]
         rules = self.rules(run)
-        beliefs = self.beliefs(run, rules, elsewhere or ())
+        beliefs = self.beliefs(run, elsewhere or ())
         anew = bool(self._falls_short[run]) and not self._explores[run] and not beliefs.explores
         self._explores[run] = beliefs.explores
         self._unclear[run] = unclear_moves(seen.steps, self._space.actions)
@@ -220,15 +216,14 @@ class Imagination:
         """Return the unknown cells where that run's policy should place blocks next, with that material."""
         if not self.has_experience(run):
             return frozenset()
-        here, rules = self._given_facts[run], self.rules(run)
-        beliefs = self.beliefs(run, rules)
+        here, beliefs = self._given_facts[run], self.beliefs(run)
         row, others = np.array([self._row(run, material)]), self._appended(material)
 
         def policy(state: tuple[int, int, int]) -> int:
             states = np.array([[*state, *others]])
             return int(self._low_level.act(states, np.zeros(1), np.ones((1, CHOICE_NUMBERS)), row)[0])
 
-        arena = imagined_arena(rules, beliefs)
+        arena = imagined_arena(self.rules(run), beliefs)
         landings = expected_landings(arena, here.start, here.step_limit, policy, self.first_tries(run).copied())
         return frozenset(cell for cell in landings if beliefs.cells[cell] in (Belief.UNKNOWN, Belief.BELIEVED))
 
@@ -254,14 +249,13 @@ class Imagination:
 
     def state(self) -> Arrays:
         """Return everything that later steps depend on, by name."""
-        every = (named_for(str(run), seen.state()) for run, seen in enumerate(self._experience))
         return {
             "explores": self._explores,
             "falls_short": self._falls_short,
             "untried": self._untried,
             "unclear": self._unclear,
             "tries": self._tries,
-            **{name: kept for part in every for name, kept in part.items()},
+            **named_parts({str(run): seen.state() for run, seen in enumerate(self._experience)}),
         }
 
     def load(self, state: Mapping[str, NDArray[Any]]) -> None:

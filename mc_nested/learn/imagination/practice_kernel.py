@@ -118,7 +118,7 @@ def practise(
     widely, most stay near the policy. They end where a block is wasted. Where an episode comes to a state again, a
     policy would go round for ever: a greedy episode ends there, another goes on by chance.
     """
-    _order_by_input(row, progress.best, work.sizes)
+    _order(row, progress.best, work.sizes, for_cells=True)
     batch = work.batch.values.shape[1]
     longest = 2 + task.step_limit * (2 + batch)
     used = 0
@@ -161,19 +161,17 @@ def practise(
         progress.episodes[0] += 1
         if greedy:
             _judge(score, task.aim, row.online, progress)
-    _order_by_node(row, progress.best, work.sizes)
+    _order(row, progress.best, work.sizes, for_cells=False)
 
 
 @compiled(nogil=True)
-def _order_by_input(row: Networks, best: Float32s, sizes: Int64s) -> None:
+def _order(row: Networks, best: Float32s, sizes: Int64s, for_cells: bool) -> None:
+    """Order the first layers' weights for the passes of cell_networks.py, or back."""
     for parameters in (row.online, row.target, row.first_moment, row.second_moment, best):
-        by_input(parameters, sizes)
-
-
-@compiled(nogil=True)
-def _order_by_node(row: Networks, best: Float32s, sizes: Int64s) -> None:
-    for parameters in (row.online, row.target, row.first_moment, row.second_moment, best):
-        by_node(parameters, sizes)
+        if for_cells:
+            by_input(parameters, sizes)
+        else:
+            by_node(parameters, sizes)
 
 
 @compiled(nogil=True)

@@ -16,7 +16,7 @@ from mc_nested.compiled import compiled
 from mc_nested.learn.dqn.compiled_engine.adam import adam_step
 from mc_nested.learn.dqn.compiled_engine.networks import Sizes, backward, forward, hidden_for
 from mc_nested.learn.dqn.compiled_engine.target_values import TargetValues, table_pays
-from mc_nested.learn.dqn.engine import Batch, Engine, LastBatches, NetworkForm, UpdateRule, diverged
+from mc_nested.learn.dqn.engine import MLP, Batch, Engine, LastBatches, NetworkForm, UpdateRule, diverged
 from mc_nested.learn.dqn.self_imitation import rival
 from mc_nested.learn.dqn.states import StateParts, StateSpace
 
@@ -56,13 +56,6 @@ class _Workspace(NamedTuple):
     scratch: tuple[Float32s, ...]
 
 
-class _Estimates(NamedTuple):
-    """What an update writes down of each row's batch, (rows, batch): Q(s, a) before it, and the TD errors."""
-
-    values: Float32s
-    errors: Float32s
-
-
 class CompiledEngine:
     """The Engine of small dense networks over numbered states.
 
@@ -75,6 +68,7 @@ class CompiledEngine:
 
     def __init__(self, space: StateSpace, sizes: Sizes, rule: UpdateRule, online: Float32s) -> None:
         self.space, self.sizes, self.rule = space, sizes, rule
+        self.form = NetworkForm(MLP, sizes)
         moments = np.zeros_like(online), np.zeros_like(online)
         self._networks = Networks(online, online.copy(), *moments, np.zeros(len(online), np.int64))
         self.online, self.target, self.updates = online, self._networks.target, self._networks.updates
@@ -86,11 +80,6 @@ class CompiledEngine:
         self._acting = hidden_for(sizes, 1)
         self._parts = tuple(space.parts)
         self._learning = tuple(hidden_for(sizes, rule.batch) for _ in _Workspace._fields)
-        self._estimates = self.last.values, self.last.errors
-
-    @property
-    def form(self) -> NetworkForm:
-        return NetworkForm("mlp", self.sizes)
 
     def load_online(self, online: Float32s) -> None:
         if online.shape != self.online.shape:
@@ -109,7 +98,7 @@ class CompiledEngine:
         if batch.actions.shape != (len(rows), self.rule.batch):
             raise ValueError(f"batches of {batch.actions.shape}, not {(len(rows), self.rule.batch)}")
         states = self._parts, self.space.first_of(rows), self._target_values.values
-        how = self._widths, tuple(self.rule), self._learning, self._estimates
+        how = self._widths, tuple(self.rule), self._learning, (self.last.values, self.last.errors)
         finite, renews = _update_rows(rows, tuple(self._networks), tuple(batch), states, *how)
         if not finite:
             raise diverged(self.rule, self.updates[rows])
@@ -215,15 +204,16 @@ def _update_rows(
     sizes: Int64s,
     of_rule: tuple[Any, ...],
     of_work: tuple[Any, ...],
-    of_estimates: tuple[Any, ...],
+    last: tuple[Float32s, Float32s],
 ) -> tuple[bool, bool]:
     """Do ``CompiledEngine.update``, row by row. Compiled code takes plain tuples over in a third of named ones' time.
 
-    Return whether all parameters are numbers afterwards, and whether any row's target is due.
+    ``last`` are the arrays of LastBatches. Return whether all parameters are numbers afterwards, and whether any row's
+    target is due.
     """
     networks, batch, rule = Networks(*of_networks), Batch(*of_batch), UpdateRule(*of_rule)
     states = _StateTable(StateParts(*of_states[0]), of_states[1], of_states[2])
-    work, estimates = _Workspace(*of_work), _Estimates(*of_estimates)
+    work, (last_values, last_errors) = _Workspace(*of_work), last
     finite, renews = True, False
     count = batch.actions.shape[1]
     inputs = np.empty((sizes[0] + 1, count), np.float32)
@@ -255,7 +245,7 @@ def _update_rows(
             action, next_value = batch.actions[at, column], bootstrap[column]
             target = td_target(batch.rewards[at, column], batch.discounts[at, column], next_value)
             error = values[action, column] - target
-            estimates.values[row, column], estimates.errors[row, column] = values[action, column], error
+            last_values[row, column], last_errors[row, column] = values[action, column], error
             clipped = min(max(error, -rule.huber_delta), rule.huber_delta)
             slope[action, column] = clipped * batch.weights[at, column] / count
             if batch.imitated[at, column]:
