@@ -28,7 +28,7 @@ from mc_nested.learn.dqn.engine import NetworkForm
 from mc_nested.learn.dqn.engines import NUMBERS, SCREEN
 from mc_nested.learn.dqn.replay import ReplayMark
 from mc_nested.learn.dqn.states import ORDER_PLANES, REACH_PLANES, PlaneStates, Sees, States, StateSpace
-from mc_nested.learn.learner import CHOICE_NUMBERS, Learner, summed_by_run
+from mc_nested.learn.learner import CHOICE_NUMBERS, Learner
 from mc_nested.learn.objectives.arenas import side_for
 from mc_nested.learn.preset import Preset
 from mc_nested.learn.streams import Purpose, stream
@@ -243,12 +243,12 @@ class Agent:
     @property
     def updates_by_run(self) -> Int64s:
         """Updates of all of a run's networks, (runs,)."""
-        return summed_by_run((learner.engine.updates for learner in self._learners().values()), len(self.runs))
+        return self._by_run(lambda learner: learner.engine.updates)
 
     @property
     def replay_bytes(self) -> Int64s:
         """Bytes of what each run's replays hold, all its agents' together, (runs,)."""
-        return summed_by_run((learner.replay.bytes_held() for learner in self._learners().values()), len(self.runs))
+        return self._by_run(lambda learner: learner.replay.bytes_held())
 
     def last_figures(self) -> Arrays:
         """Return loss and mean Q of each run's last updates, (runs,), by name; nan before an agent's first update.
@@ -310,6 +310,12 @@ class Agent:
         """Hold exactly the transitions that were held at ``mark``."""
         for role, learner in self._learners().items():
             learner.replay.take_back(marks[role])
+
+    def _by_run(self, of_rows: Callable[[Learner], Int64s]) -> Int64s:
+        """Return the sum of what each learner counts of its rows, for each run, (runs,)."""
+        counts = [of_rows(learner).reshape(len(self.runs), -1) for learner in self._learners().values()]
+        total: Int64s = np.hstack(counts).sum(axis=1)
+        return total
 
     def _named(self, of_learner: Callable[[str, Learner], Arrays]) -> Arrays:
         """Return the arrays that each learner gives, under names that begin with its role."""

@@ -1,6 +1,6 @@
 """Learners in rows: each is ε-greedy over a Q-network and has DDQN updates from its own replay."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
@@ -17,12 +17,6 @@ from mc_nested.learn.preset import Imitation, Preset
 
 CHOICE_NUMBERS = 2
 """Random numbers per ε-greedy choice: whether to explore, and which action then."""
-
-
-def summed_by_run(of_rows: Iterable[Int64s], runs: int) -> Int64s:
-    """Return the sum for each run (runs,) of counts of its learners' rows, (runs * rows a run,) each."""
-    total: Int64s = np.hstack([counts.reshape(runs, -1) for counts in of_rows]).sum(axis=1)
-    return total
 
 
 class Learner:

@@ -115,11 +115,9 @@ class UnknownDesigns(Agent):
         return believe(self.evidence[run], LANDS, self._given_facts[run].start[2])
 
     def episodes(self, run: int) -> int:
-        """Return how many real episodes that run has begun."""
         return self.seen[run].episodes
 
     def known_arena(self, run: int) -> KnownArena:
-        """Return what that run knows of its arena now, and where the blocks of its real episodes went."""
         return known_arena(self.seen[run], LANDS, self.beliefs(run))
 
     def online(self) -> Arrays:

@@ -140,8 +140,7 @@ class StateSpace:
 States = StateSpace | PlaneStates
 """What the rows of a learner see and do.
 
-Of a state, a replay keeps whole numbers from 0 to ``highest`` in that ``shape``, () for a single one: ``encoded`` gives
-those of states (…), (…, *shape).
+Of states (…) a replay keeps what ``encoded`` gives: whole numbers from 0 to ``highest``, (…, *shape).
 """
 
 

@@ -26,7 +26,7 @@ from mc_nested.arena.env import BLOCKS_LEFT, X, Y
 from mc_nested.arena.scenario import DEFAULT_SIZE, Scenario
 from mc_nested.arrays import Arrays, Float64s, Int64s, named_parts, part_of
 from mc_nested.learn.agents import Agent
-from mc_nested.learn.dqn.engine import Batch
+from mc_nested.learn.dqn.engine import lesson
 from mc_nested.learn.dqn.replay import Transitions
 from mc_nested.learn.dqn.self_imitation import BestEpisodes
 from mc_nested.learn.dqn.states import numbered
@@ -272,10 +272,7 @@ class Excursions(Practice):
             if values is not None and (values.argmax(axis=1) == actions).all():
                 return update > 0
             at, tried = np.divmod(random.integers(0, len(walk) * self._space.actions, batch), self._space.actions)
-            rewards, none = (tried == actions[at]).astype(np.float32), np.zeros((1, batch), np.float32)
-            both = np.stack((states[at], states[at]))[:, None]
-            lesson = Batch(both, tried[None], rewards[None], none, none.astype(np.bool_), np.ones_like(none))
-            engine.update(rows, lesson)
+            engine.update(rows, lesson(states[at], tried, (tried == actions[at]).astype(np.float32)))
         return False
 
     def state(self) -> Arrays:

@@ -228,13 +228,11 @@ class Imagination:
         return frozenset(cell for cell in landings if beliefs.cells[cell] in (Belief.UNKNOWN, Belief.BELIEVED))
 
     def known_arena(self, run: int) -> KnownArena:
-        """Return what that run knows of its arena now, and where the blocks of its real episodes went."""
         seen, here, rules = self._experience[run], self._given_facts[run], self.rules(run)
         evidence = evidence_of(seen.steps, rules.lands, here.size)
         return known_arena(seen, rules.lands, believe(evidence, rules.lands, here.start[2], walls=rules.walls))
 
     def episodes(self, run: int) -> int:
-        """Return how many real episodes that run has begun."""
         return self._experience[run].episodes
 
     def begin_from(self, earlier: Mapping[str, NDArray[Any]], *, pays: bool, materials: bool) -> None:

@@ -37,25 +37,6 @@ class Networks(NamedTuple):
     updates: Int64s
 
 
-class _StateTable(NamedTuple):
-    """What is known of every state: the features, where each named row's begin (k,), and the target's values.
-
-    Without a table of values, (rows, 0, actions), a batch's come from the target networks.
-    """
-
-    parts: StateParts
-    first: Int64s
-    target_values: Float32s
-
-
-class _Workspace(NamedTuple):
-    """The hidden nodes of a network's passes over one batch, and room for its backward pass."""
-
-    hidden: tuple[Float32s, ...]
-    next_hidden: tuple[Float32s, ...]
-    scratch: tuple[Float32s, ...]
-
-
 class CompiledEngine:
     """The Engine of small dense networks over numbered states.
 
@@ -79,7 +60,7 @@ class CompiledEngine:
         self._widths = np.array(sizes, dtype=np.int64)
         self._acting = hidden_for(sizes, 1)
         self._parts = tuple(space.parts)
-        self._learning = tuple(hidden_for(sizes, rule.batch) for _ in _Workspace._fields)
+        self._learning = tuple(hidden_for(sizes, rule.batch) for _ in range(3))
 
     def load_online(self, online: Float32s) -> None:
         if online.shape != self.online.shape:
@@ -208,12 +189,16 @@ def _update_rows(
 ) -> tuple[bool, bool]:
     """Do ``CompiledEngine.update``, row by row. Compiled code takes plain tuples over in a third of named ones' time.
 
-    ``last`` are the arrays of LastBatches. Return whether all parameters are numbers afterwards, and whether any row's
-    target is due.
+    ``of_states`` are the features of every state (StateParts), where each named row's begin (k,), and the targets'
+    values: without a table of them, (rows, 0, actions), a batch's come from the target networks. ``of_work`` is room
+    for the hidden nodes of s, of s', and of the backward pass; ``last`` are the arrays of LastBatches.
+
+    Return whether all parameters are numbers afterwards, and whether any row's target is due.
     """
     networks, batch, rule = Networks(*of_networks), Batch(*of_batch), UpdateRule(*of_rule)
-    states = _StateTable(StateParts(*of_states[0]), of_states[1], of_states[2])
-    work, (last_values, last_errors) = _Workspace(*of_work), last
+    parts, firsts, target_values = StateParts(*of_states[0]), of_states[1], of_states[2]
+    hidden, next_hidden, scratch = of_work
+    last_values, last_errors = last
     finite, renews = True, False
     count = batch.actions.shape[1]
     inputs = np.empty((sizes[0] + 1, count), np.float32)
@@ -223,21 +208,21 @@ def _update_rows(
     gradient = np.empty(networks.online.shape[1], np.float32)
     greedy = np.empty(count, np.int32)
     bootstrap = np.empty(count, np.float32)
-    tabulated = states.target_values.shape[1] > 0
+    tabulated = target_values.shape[1] > 0
     for at in range(len(rows)):
         row = rows[at]
         online = networks.online[row]
-        _look_up(batch.states[0, at], states.first[at], states.parts, inputs)
-        _look_up(batch.states[1, at], states.first[at], states.parts, next_inputs)
+        _look_up(batch.states[0, at], firsts[at], parts, inputs)
+        _look_up(batch.states[1, at], firsts[at], parts, next_inputs)
         if not tabulated:
-            forward(networks.target[row], sizes, next_inputs, work.next_hidden, next_targets)
-        forward(online, sizes, next_inputs, work.next_hidden, next_values)
-        forward(online, sizes, inputs, work.hidden, values)
+            forward(networks.target[row], sizes, next_inputs, next_hidden, next_targets)
+        forward(online, sizes, next_inputs, next_hidden, next_values)
+        forward(online, sizes, inputs, hidden, values)
         greedy_actions(next_values, greedy)
         for column in range(count):
             best = greedy[column]
             if tabulated:
-                bootstrap[column] = states.target_values[row, batch.states[1, at, column], best]
+                bootstrap[column] = target_values[row, batch.states[1, at, column], best]
             else:
                 bootstrap[column] = next_targets[best, column]
         slope[:] = np.float32(0)
@@ -253,7 +238,7 @@ def _update_rows(
                 if other != action:
                     slope[other, column] += np.float32(1 / count)
                     slope[action, column] -= np.float32(1 / count)
-        backward(online, sizes, inputs, work.hidden, slope, gradient, work.scratch)
+        backward(online, sizes, inputs, hidden, slope, gradient, scratch)
         networks.updates[row] += 1
         renews = renews or networks.updates[row] % rule.target_period == 0
         moments = networks.first_moment[row], networks.second_moment[row]
