@@ -30,6 +30,11 @@ def named_for(part: str, state: Mapping[str, NDArray[Any]]) -> Arrays:
     return {f"{part}.{name}": kept for name, kept in state.items()}
 
 
+def named_parts(parts: Mapping[str, Mapping[str, NDArray[Any]]]) -> Arrays:
+    """Return the entries of all these parts, by name, as ``named_for`` of each."""
+    return {name: kept for part, state in parts.items() for name, kept in named_for(part, state).items()}
+
+
 def copied(state: Mapping[str, NDArray[Any]]) -> Arrays:
     """Return a copy of each array."""
     return {name: array.copy() for name, array in state.items()}

@@ -21,17 +21,17 @@ from mc_nested.arena.env import BLOCKS_LEFT, highest_observation
 from mc_nested.arena.planes import FULL, PLANES, PlanesVectorEnv, common_size, shares, start_planes, with_material
 from mc_nested.arena.scenario import Scenario
 from mc_nested.arena.single import SingleAgentVectorEnv
-from mc_nested.arrays import Arrays, Float64s, Int64s, named_for, part_of
+from mc_nested.arrays import Arrays, Float64s, Int64s, named_parts, part_of
 from mc_nested.errors import PresetError
 from mc_nested.learn.builders import Builders, check_builders
 from mc_nested.learn.dqn.engine import NetworkForm
 from mc_nested.learn.dqn.engines import NUMBERS, SCREEN
 from mc_nested.learn.dqn.replay import ReplayMark
 from mc_nested.learn.dqn.states import ORDER_PLANES, REACH_PLANES, PlaneStates, Sees, States, StateSpace
-from mc_nested.learn.learner import CHOICE_NUMBERS, Learner, summed_by_run
+from mc_nested.learn.learner import CHOICE_NUMBERS, Learner
 from mc_nested.learn.objectives.arenas import side_for
 from mc_nested.learn.preset import Preset
-from mc_nested.learn.streams import initial_stream
+from mc_nested.learn.streams import Purpose, stream
 from mc_nested.toml_file import one_of
 
 IMAGE = "image"
@@ -95,6 +95,9 @@ class Agent:
     have a row each. ``size`` is the largest arena's, ``builders`` how many share an arena. ``nested_sees`` is what the
     nested agent is shown, where the main agent's actions are objectives.
 
+    One run trains so many ``networks``, 2 nested, 3 hierarchical with two materials, 1 single (paper, section 6), with
+    so many ``parameters``, target networks not counted.
+
     Args:
         spec: which agent.
         scenarios: each run's scenario; all with the same number of materials.
@@ -121,7 +124,7 @@ class Agent:
         check_exploration(spec, preset)
         check_parts(scenarios, preset)
         self.runs = tuple(range(len(scenarios)) if runs is None else runs)
-        streams = [initial_stream(seed, run) for run in self.runs]
+        streams = [stream(Purpose.INITIAL, seed, run) for run in self.runs]
         self._materials = len(scenarios[0].materials)
         self.size = max(scenario.size for scenario in scenarios)
         self.spec = spec
@@ -132,6 +135,8 @@ class Agent:
         self._low_levels = self._materials if spec.low_level_per_material else 1
         self._numbered = spec.appends_material and self.builders > 1
         self._share_a_row = self.builders if team and team.networks == "shared" else 1
+        self._rows_a_run = self._low_levels * self.builders // self._share_a_row
+        self._low_level_actions = len(Action) + (0 if spec.has_main else self._materials)
         if self._sees == NUMBERS:
             chooses, builds = self._numbers(scenarios, preset.encoding)
         elif preset.objectives:
@@ -144,10 +149,8 @@ class Agent:
         each = [stream for stream in streams for _ in range(self._rows_a_run)]
         imitation = (preset.imitation, self._longest) if preset.imitation else None
         self.low_level = Learner(builds, preset, each, imitation)
-
-    @property
-    def _rows_a_run(self) -> int:
-        return self._low_levels * self.builders // self._share_a_row
+        self.networks = self._rows_a_run + (self.main is not None)
+        self.parameters = self._rows_a_run * self.low_level.parameters + (self.main.parameters if self.main else 0)
 
     def low_level_states(self, observations: NDArray[Any], materials: Int64s) -> NDArray[Any]:
         """Return the low-level agents' states, (runs * builders, …); the nested agent's s_N = [s_M, a_M] (section 4.1).
@@ -233,17 +236,6 @@ class Agent:
         return {role: learner.engine.form for role, learner in self._learners().items()}
 
     @property
-    def networks(self) -> int:
-        """Networks that one run trains: 2 nested, 3 hierarchical with two materials, 1 single (paper, section 6)."""
-        return self._rows_a_run + (self.main is not None)
-
-    @property
-    def parameters(self) -> int:
-        """Parameters of one run's networks, target networks not counted."""
-        main = self.main.parameters if self.main else 0
-        return main + self._rows_a_run * self.low_level.parameters
-
-    @property
     def updates(self) -> int:
         """Updates done, over all runs and agents."""
         return sum(int(learner.engine.updates.sum()) for learner in self._learners().values())
@@ -251,12 +243,12 @@ class Agent:
     @property
     def updates_by_run(self) -> Int64s:
         """Updates of all of a run's networks, (runs,)."""
-        return summed_by_run((learner.engine.updates for learner in self._learners().values()), len(self.runs))
+        return self._by_run(lambda learner: learner.engine.updates)
 
     @property
     def replay_bytes(self) -> Int64s:
         """Bytes of what each run's replays hold, all its agents' together, (runs,)."""
-        return summed_by_run((learner.replay.bytes_held() for learner in self._learners().values()), len(self.runs))
+        return self._by_run(lambda learner: learner.replay.bytes_held())
 
     def last_figures(self) -> Arrays:
         """Return loss and mean Q of each run's last updates, (runs,), by name; nan before an agent's first update.
@@ -319,10 +311,15 @@ class Agent:
         for role, learner in self._learners().items():
             learner.replay.take_back(marks[role])
 
+    def _by_run(self, of_rows: Callable[[Learner], Int64s]) -> Int64s:
+        """Return the sum of what each learner counts of its rows, for each run, (runs,)."""
+        counts = [of_rows(learner).reshape(len(self.runs), -1) for learner in self._learners().values()]
+        total: Int64s = np.hstack(counts).sum(axis=1)
+        return total
+
     def _named(self, of_learner: Callable[[str, Learner], Arrays]) -> Arrays:
         """Return the arrays that each learner gives, under names that begin with its role."""
-        each = (named_for(role, of_learner(role, learner)) for role, learner in self._learners().items())
-        return {name: array for of_role in each for name, array in of_role.items()}
+        return named_parts({role: of_learner(role, learner) for role, learner in self._learners().items()})
 
     def _learners(self) -> dict[str, Learner]:
         return {"main": self.main, "low": self.low_level} if self.main else {"low": self.low_level}
@@ -352,7 +349,3 @@ class Agent:
         order, reach = ((planes, side, side) for planes in (ORDER_PLANES, REACH_PLANES))
         builds = PlaneStates(runs, self._low_level_actions, reach, are_bits=True)
         return PlaneStates(runs, side * side, order, are_bits=True), builds
-
-    @property
-    def _low_level_actions(self) -> int:
-        return len(Action) + (0 if self.spec.has_main else self._materials)

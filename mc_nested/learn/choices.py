@@ -17,7 +17,7 @@ from mc_nested.arrays import Arrays, Bools, Float64s, Int64s
 from mc_nested.learn.agents import Agent
 from mc_nested.learn.learner import CHOICE_NUMBERS, Learner
 from mc_nested.learn.preset import Preset
-from mc_nested.learn.streams import choice_stream, main_updates_stream
+from mc_nested.learn.streams import Purpose, stream
 
 
 class ChoiceStep(NamedTuple):
@@ -116,7 +116,7 @@ class MainChoices(OwnChoices):
         self._earned[rows] = step.earned[rows]
         # Drawn only when they are needed, which leaves the numbers of every tick as they were without choices.
         runs = [self._agent.runs[row] for row in rows.tolist()]
-        drawn = [choice_stream(self._seed, run, step.tick).random(CHOICE_NUMBERS) for run in runs]
+        drawn = [stream(Purpose.CHOICES, self._seed, run, step.tick).random(CHOICE_NUMBERS) for run in runs]
         chosen: Int64s = materials.copy()
         explores = np.where(learning, epsilon, 0.0)[rows]
         chosen[rows] = self._main.act(step.states[rows], explores, np.stack(drawn), rows)
@@ -148,10 +148,5 @@ class MainChoices(OwnChoices):
         if self._preset.main is None:
             return step.draws[None, rows]
         shape = self._preset.main.updates_an_episode, self._preset.update.batch
-        streams = [main_updates_stream(self._seed, self._agent.runs[row], step.tick) for row in rows.tolist()]
-        return np.stack([stream.random(shape) for stream in streams], axis=1)
-
-
-def choices_of(agent: Agent, scenarios: Sequence[Scenario], preset: Preset, seed: int) -> OwnChoices:
-    """Return who chooses the materials for that agent, in runs of these scenarios."""
-    return MainChoices(agent, agent.main, scenarios, preset, seed) if agent.main else OwnChoices(agent)
+        streams = [stream(Purpose.MAIN_UPDATES, self._seed, self._agent.runs[row], step.tick) for row in rows.tolist()]
+        return np.stack([each.random(shape) for each in streams], axis=1)

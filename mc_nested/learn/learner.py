@@ -1,6 +1,6 @@
 """Learners in rows: each is ε-greedy over a Q-network and has DDQN updates from its own replay."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
@@ -17,12 +17,6 @@ from mc_nested.learn.preset import Imitation, Preset
 
 CHOICE_NUMBERS = 2
 """Random numbers per ε-greedy choice: whether to explore, and which action then."""
-
-
-def summed_by_run(of_rows: Iterable[Int64s], runs: int) -> Int64s:
-    """Return the sum for each run (runs,) of counts of its learners' rows, (runs * rows a run,) each."""
-    total: Int64s = np.hstack([counts.reshape(runs, -1) for counts in of_rows]).sum(axis=1)
-    return total
 
 
 class Learner:
@@ -47,6 +41,7 @@ class Learner:
         margin = imitation[0].margin if imitation else 0.0
         rule = UpdateRule(update.batch, update.learning_rate, update.target_period, update.huber_delta, margin)
         self.engine = made_engine(states, preset.engine_choice, rule, streams)
+        self.parameters = int(self.engine.online.shape[1])  # of one row's network
         self.replay = Replay(states, preset.replay_capacity)
         wanted = preset.prioritized
         self.priorities = Priorities(states.rows, FIRST_ROOM, wanted.alpha, wanted.beta) if wanted else None
@@ -56,11 +51,6 @@ class Learner:
         self._of_equal_weight = np.full((states.rows, update.batch), self._td_weight)
         self._not_imitated = np.zeros((states.rows, update.batch), dtype=np.bool_)
         self.best = BestEpisodes(states.rows, imitation[1], imitation[0].batch) if imitation else None
-
-    @property
-    def parameters(self) -> int:
-        """Parameters of one row's network."""
-        return int(self.engine.online.shape[1])
 
     def act(self, states: NDArray[Any], epsilon: Float64s, uniforms: Float64s, rows: Int64s | None = None) -> Int64s:
         """Return ε-greedy actions (k,) for states (k, …), ε (k,) and uniform numbers (k, 2); all rows unless named."""

@@ -15,7 +15,7 @@ from mc_nested.arena.scenario import Scenario
 from mc_nested.arrays import Arrays, Bools, Float64s, Int64s, named_for, part_of
 from mc_nested.learn.agents import Agent
 from mc_nested.learn.exploration.return_then_explore import Excursions
-from mc_nested.learn.imagination.background_practice import Background, BackgroundPractice
+from mc_nested.learn.imagination.background_practice import Background, BackgroundPractice, Foreground
 from mc_nested.learn.imagination.first_tries import FirstTries
 from mc_nested.learn.imagination.imagination import GivenFacts, Imagination
 from mc_nested.learn.imagination.noticing import IN_WORDS
@@ -30,35 +30,49 @@ EPSILON_INSTEAD = 0.1
 
 
 class LearntGame(Practice):
-    """Practice in the learnt game, to its end, before the real one is reset; real steps are only remembered.
+    """Practice in the learnt game, before the real one is reset, or beside it; real steps are only remembered.
 
     Args:
         agent: what learns.
         preset: the hyper-parameters.
         imagination: the learnt games of its runs.
         scenarios: each run's scenario, for excursions in the place of a game that doesn't hold.
+        background: where it runs; to its end before the game is reset, unless given.
     """
 
     numbers = Excursions.numbers
     evaluate_every = 1
     """A policy that builds all of a known design is evaluated at once."""
 
-    def __init__(self, agent: Agent, preset: Preset, imagination: Imagination, scenarios: Sequence[Scenario]) -> None:
+    def __init__(
+        self,
+        agent: Agent,
+        preset: Preset,
+        imagination: Imagination,
+        scenarios: Sequence[Scenario],
+        background: Background | None = None,
+    ) -> None:
         super().__init__(agent, preset)
         self.imagination: Imagination = imagination
         self.known = imagination
+        self._sessions = BackgroundPractice(background or Foreground())
         self._excursions = Excursions(agent, preset, INSTEAD, scenarios)
         # What doesn't hold of each run's learnt game; negative while that has its turn all the same.
         self._broken = np.zeros(len(scenarios), dtype=np.int64)
 
     def before_choice(self, runs: Int64s, elsewhere: Collection[int] = ()) -> None:
+        self._sessions.end_of_episode()
         for run in runs.tolist():
             self.imagination.learn_choice(run, elsewhere)
 
     def before_episode(self, runs: Int64s, materials: Int64s, reset: Callable[[], None]) -> Bools:
-        practised = [self.practise(run, int(materials[run]), None, None) for run in runs.tolist()]
-        reset()
-        return np.array(practised, dtype=np.bool_)
+        broken, own = runs[self._broken[runs] > 0].tolist(), runs[self._broken[runs] <= 0].tolist()
+        practised = {run: self.practise(run, int(materials[run]), None, None) for run in broken}
+        sessions = {run: self.imagination.session(run, int(materials[run])) for run in own}
+        self._sessions.during_reset(sessions, reset)
+        practised |= {run: self.imagination.builds_it_all(run, session) for run, session in sessions.items()}
+        self._sessions.during_episode()
+        return np.array([practised[run] for run in runs.tolist()], dtype=np.bool_)
 
     def practise(self, run: int, material: int, number: int | None, elsewhere: Collection[Cell] | None) -> bool:
         if self._broken[run] > 0:
@@ -112,42 +126,6 @@ class LearntGame(Practice):
         self.imagination.load(state)
         self._excursions.load(part_of(state, "excursions"))
         self._broken[:] = state["broken"]
-
-
-class LearntGameBesideIt(LearntGame):
-    """Practice beside a live game, which can't wait: while the game resets, a little longer, and while an episode runs.
-
-    Args:
-        agent: what learns.
-        preset: the hyper-parameters.
-        imagination: the learnt games of its runs.
-        scenarios: each run's scenario.
-        background: where it runs.
-    """
-
-    def __init__(
-        self,
-        agent: Agent,
-        preset: Preset,
-        imagination: Imagination,
-        scenarios: Sequence[Scenario],
-        background: Background,
-    ) -> None:
-        super().__init__(agent, preset, imagination, scenarios)
-        self._background = BackgroundPractice(background)
-
-    def before_choice(self, runs: Int64s, elsewhere: Collection[int] = ()) -> None:
-        self._background.end_of_episode()
-        super().before_choice(runs, elsewhere)
-
-    def before_episode(self, runs: Int64s, materials: Int64s, reset: Callable[[], None]) -> Bools:
-        broken, own = runs[self._broken[runs] > 0].tolist(), runs[self._broken[runs] <= 0].tolist()
-        practised = {run: self.practise(run, int(materials[run]), None, None) for run in broken}
-        sessions = {run: self.imagination.session(run, int(materials[run])) for run in own}
-        self._background.during_reset(sessions, reset)
-        practised |= {run: self.imagination.builds_it_all(run, session) for run, session in sessions.items()}
-        self._background.during_episode()
-        return np.array([practised[run] for run in runs.tolist()], dtype=np.bool_)
 
 
 def imagination_of(agent: Agent, scenarios: Sequence[Scenario], preset: Preset, seed: int) -> Imagination | None:

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mc_nested.arena.scenario import Scenario
-from mc_nested.arrays import Arrays, named_for, part_of
+from mc_nested.arrays import Arrays, named_parts, part_of
 from mc_nested.errors import PresetError
 from mc_nested.learn.agents import Agent
 from mc_nested.learn.episode_log import EpisodeRow, EvaluationRow
@@ -19,7 +19,7 @@ from mc_nested.learn.objective_lessons import MainLessons, NestedLessons
 from mc_nested.learn.objectives.decide import ObjectiveAgent, built_by_the_rules
 from mc_nested.learn.objectives.networks import ReachNetwork
 from mc_nested.learn.preset import Preset
-from mc_nested.learn.streams import practice_stream
+from mc_nested.learn.streams import Purpose, stream
 from mc_nested.learn.training import Training
 
 SAID_EVERY = 1000
@@ -46,7 +46,7 @@ class ObjectivesTraining(Training):
 
     def tick(self) -> None:
         """Do a round of lessons: in every arena a step of the nested agent, or an objective of the main agent."""
-        random = practice_stream(self._seed, self.agent.runs[0], self.ticks)
+        random = stream(Purpose.PRACTICE, self._seed, self.agent.runs[0], self.ticks)
         if self._nested.updates < self._rule.nested_updates:
             said = self._nested.updates // SAID_EVERY
             self._nested.round(random)
@@ -61,12 +61,10 @@ class ObjectivesTraining(Training):
         """Do nothing: no lesson is played in an arena that a mishap can end."""
 
     def state(self) -> Arrays:
-        """Return what the rest of the training depends on, between two rounds; without the journal."""
         lessons = {"lessons/nested": self._nested.state(), "lessons/main": self._main.state()}
-        return {**super().state(), **{k: v for name, own in lessons.items() for k, v in named_for(name, own).items()}}
+        return {**super().state(), **named_parts(lessons)}
 
     def load(self, state: Mapping[str, NDArray[Any]], journals: Sequence[Mapping[str, NDArray[Any]]]) -> None:
-        """Continue from what ``state`` and ``journal`` returned; KeyError or ValueError if the shape differs."""
         super().load(state, journals)
         self._nested.load(part_of(state, "lessons/nested"))
         self._main.load(part_of(state, "lessons/main"))
@@ -83,7 +81,7 @@ class ObjectivesTraining(Training):
             score, episode = done.share * self._scenario.optimum, int(self.episodes_done[0])
             material = self._scenario.best_material
             self.episode_rows.append(EpisodeRow(0, episode, score, material, done.steps, epsilon, 0.0))
-        self._epsilon = self._epsilon_now()
+        self.epsilon = self._epsilon_now()
         after, every = int(self.episodes_done[0]), self.preset.evaluate_every
         if after // every > before // every or after == episodes:
             self._evaluate()

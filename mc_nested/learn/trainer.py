@@ -45,16 +45,11 @@ class _Episodes:
 
 
 class Trainer(Training):
-    """Trains until every run has its episodes.
+    """Trains until every run has its episodes: with the same seed, the same training.
 
     Args:
         env: an arena for each run as a VectorEnv with autoreset disabled, as the agent sees it (``Agent.view_of``);
-            with builders, a row for each of them.
-        scenarios: each run's scenario.
-        agent: what is trained.
-        preset: the hyper-parameters; ``episodes`` as in the preset or as asked for.
-        seed: of all random choices; the same seed gives the same training.
-        stop_at_optimum: finish a run at its first greedy evaluation at its scenario's optimum.
+            with builders, a row for each of them. The other arguments are as ``Training``'s.
         background: where practice runs beside a live game; in a thread unless given.
     """
 
@@ -135,12 +130,10 @@ class Trainer(Training):
         self._episodes.between_episodes[:] = True
 
     def state(self) -> Arrays:
-        """Return what the rest of the training depends on, between two ticks; without the journal."""
         arenas = self._resumable.snapshot() if self._resumable else {}
         return {**super().state(), **named_for("runs", vars(self._episodes)), **named_for("env", arenas)}
 
     def load(self, state: Mapping[str, NDArray[Any]], journals: Sequence[Mapping[str, NDArray[Any]]]) -> None:
-        """Continue from what ``state`` and ``journal`` returned; KeyError or ValueError if the shape differs."""
         super().load(state, journals)
         saved, arenas = part_of(state, "runs"), part_of(state, "env")
         for name, array in vars(self._episodes).items():

@@ -12,12 +12,12 @@ from numpy.typing import NDArray
 from mc_nested.arena.scenario import Scenario
 from mc_nested.arrays import Arrays, Float64s, Int64s, copied, named_for, part_of
 from mc_nested.learn.agents import Agent
-from mc_nested.learn.choices import choices_of
+from mc_nested.learn.choices import MainChoices, OwnChoices
 from mc_nested.learn.episode_log import EpisodeRow, EvaluationRow, rows_of_table, table_of_rows
 from mc_nested.learn.exploration.return_then_explore import Excursions
 from mc_nested.learn.exploration.schedules import decays_of, epsilon_after
 from mc_nested.learn.imagination.background_practice import Background
-from mc_nested.learn.learnt_game import LearntGame, LearntGameBesideIt, imagination_of
+from mc_nested.learn.learnt_game import LearntGame, imagination_of
 from mc_nested.learn.practice import Practice
 from mc_nested.learn.preset import Preset
 from mc_nested.learn.unknown_design import Tries, UnknownDesigns
@@ -30,7 +30,8 @@ class Training:
     ``episode_rows`` and ``evaluation_rows`` have a row for each. ``episodes_done`` are training episodes, (runs,), and
     ``runs_finished`` says which runs are finished. ``policies`` are the networks that the runs keep, by
     role: what plays afterwards; and their ``scores``, (runs,), at the greedy evaluations that they are from, -inf
-    before the first one.
+    before the first one. ``epsilon`` is the main and the nested agent's ε of the training episodes now, (runs,) each:
+    every tick needs it, so it is computed when an episode ends.
 
     Args:
         scenarios: each run's scenario.
@@ -60,9 +61,10 @@ class Training:
         self.runs_finished = np.zeros(runs, dtype=np.bool_)
         self.policies: Arrays = {**copied(agent.online()), "scores": np.full(runs, -np.inf)}
         self.practice = practice_of(agent, scenarios, preset, seed, background)
-        self._choices = choices_of(agent, scenarios, preset, seed)
+        main = agent.main
+        self._choices = MainChoices(agent, main, scenarios, preset, seed) if main else OwnChoices(agent)
         self._decays = decays_of(preset)
-        self._epsilon = self._epsilon_now()
+        self.epsilon = self._epsilon_now()
         self._evaluated_at = np.zeros(runs, dtype=np.int64)
         self._optimum = np.array([scenario.optimum for scenario in scenarios])
         self._stop_at_optimum = stop_at_optimum
@@ -76,11 +78,6 @@ class Training:
     def policy_scores(self) -> Float64s:
         """The greedy score of the policy that each run keeps, (runs,)."""
         return self.policies["scores"]
-
-    @property
-    def epsilon(self) -> tuple[Float64s, Float64s]:
-        """The main and the nested agent's ε of the training episodes now, (runs,) each."""
-        return self._epsilon
 
     def begin_from(self, online: Mapping[str, NDArray[Any]], *, evaluated_first: bool = True) -> None:
         """Begin with one run's networks, by role, in every run.
@@ -125,7 +122,7 @@ class Training:
         self.episodes_done[:] = state["runs.episodes"]
         self._evaluated_at[:] = state["runs.evaluated_at"]
         self.runs_finished[:] = state["runs.finished"]
-        self._epsilon = self._epsilon_now()
+        self.epsilon = self._epsilon_now()
         self.agent.load(part_of(state, "agent"))
         for name, array in self.policies.items():
             array[:] = state[f"policies.{name}"]
@@ -141,7 +138,7 @@ class Training:
     ) -> None:
         """Count a training episode of the named runs (k,), played with these ε; every array is of all runs."""
         self.episodes_done[runs] += 1
-        self._epsilon = self._epsilon_now()
+        self.epsilon = self._epsilon_now()
         columns = self.episodes_done, scores, materials, steps, *epsilons
         self.episode_rows += map(EpisodeRow, runs.tolist(), *(column[runs].tolist() for column in columns))
 
@@ -159,7 +156,6 @@ class Training:
         self.runs_finished[run] = row.episode >= self.preset.episodes or reached
 
     def _epsilon_now(self) -> tuple[Float64s, Float64s]:
-        """Return ``epsilon``, for as long as no training episode ends: every tick needs it."""
         main, nested = self._decays
         done, episodes = self.episodes_done, self.preset.episodes
         return epsilon_after(done, episodes, main), epsilon_after(done, episodes, nested)
@@ -176,6 +172,4 @@ def practice_of(
     imagination = imagination_of(agent, scenarios, preset, seed)
     if imagination is None:
         return Practice(agent, preset)
-    if background:
-        return LearntGameBesideIt(agent, preset, imagination, scenarios, background)
-    return LearntGame(agent, preset, imagination, scenarios)
+    return LearntGame(agent, preset, imagination, scenarios, background)

@@ -1,7 +1,7 @@
 """The agent with objectives where nobody tells it the design: what it believes takes the design's place.
 
 Beliefs come from what the real steps were paid (learn/imagination/). Whenever a block has landed, they say which cells
-the next ones are for (candidates.py), and the two networks that come with the package get there. Nothing is trained
+the next ones are for (beliefs.py), and the two networks that come with the package get there. Nothing is trained
 between two episodes: the agent is what it has seen.
 """
 
@@ -14,11 +14,10 @@ from numpy.typing import NDArray
 
 from mc_nested.arena.action import Action, Cell
 from mc_nested.arena.vector import NO_ACTION
-from mc_nested.arrays import Arrays, Bools, Float64s, Int64s, named_for, part_of
+from mc_nested.arrays import Arrays, Bools, Float64s, Int64s, named_parts, part_of
 from mc_nested.learn.agents import AGENT_SPECS, Agent
 from mc_nested.learn.exploration.schedules import NEVER
-from mc_nested.learn.imagination.beliefs import Belief, Beliefs, believe, count_try
-from mc_nested.learn.imagination.candidates import candidates
+from mc_nested.learn.imagination.beliefs import Belief, Beliefs, believe, candidates, count_try
 from mc_nested.learn.imagination.experience import Experience, RealStep
 from mc_nested.learn.imagination.imagination import GivenFacts
 from mc_nested.learn.imagination.known_arena import KnownArena, known_arena
@@ -64,6 +63,7 @@ class UnknownDesigns(Agent):
         self.size, self.main = given[0].size, None
         self._sees, self._numbered, self._team = "numbers", False, None
         self._weights, self._given_facts = weights, given
+        self.networks, self.parameters = len(weights), sum(map(len, weights))
         self.seen = [Experience() for _ in given]
         # What every try so far has shown, and what it had before the episode that runs.
         self.evidence = np.zeros((len(given), 2, self.size, self.size))
@@ -71,14 +71,6 @@ class UnknownDesigns(Agent):
         self._materials_now = np.zeros(len(given), dtype=np.int64)
         self._episodes = [_Episode(each.start[2]) for each in given]
         self._given: Arrays = {}
-
-    @property
-    def networks(self) -> int:
-        return len(self._weights)
-
-    @property
-    def parameters(self) -> int:
-        return sum(map(len, self._weights))
 
     def _learners(self) -> dict[str, Any]:
         return {}
@@ -123,11 +115,9 @@ class UnknownDesigns(Agent):
         return believe(self.evidence[run], LANDS, self._given_facts[run].start[2])
 
     def episodes(self, run: int) -> int:
-        """Return how many real episodes that run has begun."""
         return self.seen[run].episodes
 
     def known_arena(self, run: int) -> KnownArena:
-        """Return what that run knows of its arena now, and where the blocks of its real episodes went."""
         return known_arena(self.seen[run], LANDS, self.beliefs(run))
 
     def online(self) -> Arrays:
@@ -144,8 +134,7 @@ class UnknownDesigns(Agent):
 
     def state(self) -> Arrays:
         """Return what each run has seen, and the material that it has in hand, by name."""
-        every = (named_for(str(run), seen.state()) for run, seen in enumerate(self.seen))
-        seen = {name: kept for part in every for name, kept in part.items()}
+        seen = named_parts({str(run): seen.state() for run, seen in enumerate(self.seen)})
         return {"materials": self._materials_now, "before": self.before, **seen}
 
     def load(self, state: Mapping[str, NDArray[Any]]) -> None:
@@ -199,12 +188,7 @@ def playing(preset: Preset) -> Preset:
 
 
 class Tries(Practice):
-    """What a run sees of its episodes is all that it learns. It is evaluated once it knows enough cells.
-
-    Args:
-        agent: who plays.
-        preset: of the training.
-    """
+    """What a run sees of its episodes is all that it learns. It is evaluated once it knows enough cells."""
 
     evaluate_every = 1
 

@@ -2,15 +2,7 @@
 
 import numpy as np
 
-from mc_nested.learn.streams import (
-    TICKS_A_CHUNK,
-    Streams,
-    episode_stream,
-    initial_stream,
-    main_updates_stream,
-    plan_stream,
-    practice_stream,
-)
+from mc_nested.learn.streams import TICKS_A_CHUNK, Purpose, Streams, stream
 
 TICKS = [0, 1, TICKS_A_CHUNK - 1, TICKS_A_CHUNK, 10 * TICKS_A_CHUNK + 3]
 
@@ -44,27 +36,28 @@ def test_streams_differ_by_seed_run_and_tick() -> None:
 
 
 def test_initial_streams_differ_by_seed_and_run() -> None:
-    drawn = {initial_stream(seed, run).random() for seed in (0, 1) for run in (0, 1)}
+    drawn = {stream(Purpose.INITIAL, seed, run).random() for seed in (0, 1) for run in (0, 1)}
     assert len(drawn) == 4
 
 
 def test_the_main_agents_batches_differ_by_seed_run_and_tick() -> None:
     ways = [(seed, run, tick) for seed in (0, 1) for run in (0, 1) for tick in (0, 1, 5000)]
-    drawn = [main_updates_stream(*way).random() for way in ways]
-    assert len({*drawn, initial_stream(0, 0).random(), Streams(0, [0], 1).at(0)[0, 0]}) == len(ways) + 2
-    assert drawn == [main_updates_stream(*way).random() for way in ways]
+    drawn = [stream(Purpose.MAIN_UPDATES, *way).random() for way in ways]
+    assert len({*drawn, stream(Purpose.INITIAL, 0, 0).random(), Streams(0, [0], 1).at(0)[0, 0]}) == len(ways) + 2
+    assert drawn == [stream(Purpose.MAIN_UPDATES, *way).random() for way in ways]
 
 
 def test_practice_streams_differ_by_seed_run_and_episode_and_from_all_others() -> None:
     ways = [(seed, run, at) for seed in (0, 1) for run in (0, 1) for at in (0, 1, 5000)]
-    drawn = [practice_stream(*way).random() for way in ways]
-    others = [main_updates_stream(*way).random() for way in ways] + [initial_stream(0, 0).random()]
+    drawn = [stream(Purpose.PRACTICE, *way).random() for way in ways]
+    others = [stream(Purpose.MAIN_UPDATES, *way).random() for way in ways] + [stream(Purpose.INITIAL, 0, 0).random()]
     assert len({*drawn, *others, Streams(0, [0], 1).at(0)[0, 0]}) == len(drawn) + len(others) + 1
-    assert drawn == [practice_stream(*way).random() for way in ways]
+    assert drawn == [stream(Purpose.PRACTICE, *way).random() for way in ways]
 
 
 def test_plan_episode_and_practice_streams_differ_by_seed_run_and_number() -> None:
+    purposes = Purpose.PLANS, Purpose.EPISODES, Purpose.PRACTICE
     ways = [(seed, run, number) for seed in (0, 1) for run in (0, 1) for number in (0, 1, 5000)]
-    drawn = [stream(*way).random() for stream in (plan_stream, episode_stream, practice_stream) for way in ways]
+    drawn = [stream(purpose, *way).random() for purpose in purposes for way in ways]
     assert len(set(drawn)) == 3 * len(ways)
-    assert drawn == [stream(*way).random() for stream in (plan_stream, episode_stream, practice_stream) for way in ways]
+    assert drawn == [stream(purpose, *way).random() for purpose in purposes for way in ways]

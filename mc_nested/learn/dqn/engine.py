@@ -44,6 +44,13 @@ class Batch(NamedTuple):
     weights: Float32s
 
 
+def lesson(states: Int64s, actions: Int64s, values: Float32s) -> Batch:
+    """Return a batch for one row, of what actions are worth in states, (batch,) each, whatever follows."""
+    none = np.zeros((1, len(actions)), np.float32)
+    both = np.stack((states, states))[:, None]
+    return Batch(both, actions[None], values[None], none, none.astype(np.bool_), np.ones_like(none))
+
+
 MLP, CNN, REACH, ORDER = "mlp", "cnn", "reach", "order"
 """Networks that a preset names; the last two are those of the agents with objectives: the nested and the main one."""
 
@@ -58,20 +65,17 @@ class NetworkForm(NamedTuple):
 class Engine(Protocol):
     """Rows of Q-networks with their targets and optimisers (paper, section 2.4)."""
 
-    @property
-    def updates(self) -> Int64s:
-        """Updates that each row has had, (rows,)."""
+    updates: Int64s
+    """Updates that each row has had, (rows,)."""
 
     rule: UpdateRule
     """What an update does; another learning rate may be given on the way."""
 
-    @property
-    def last(self) -> "LastBatches":
-        """What each row's last update found."""
+    last: "LastBatches"
+    """What each row's last update found."""
 
-    @property
-    def form(self) -> NetworkForm:
-        """What each network is."""
+    form: NetworkForm
+    """What each network is."""
 
     @property
     def online(self) -> Float32s:

@@ -1,6 +1,7 @@
 """The engine that a preset names, with its networks as they begin."""
 
 from collections.abc import Sequence
+from functools import partial
 from typing import NamedTuple
 
 import numpy as np
@@ -33,12 +34,6 @@ def made_engine(
     if choice.engine == COMPILED and isinstance(states, StateSpace):
         sizes = states.network(choice.hidden)
         return CompiledEngine(states, sizes, rule, np.stack([initial_parameters(sizes, stream) for stream in streams]))
-    return _made_torch_engine(states, choice, rule, streams)
-
-
-def _made_torch_engine(
-    states: States, choice: EngineChoice, rule: UpdateRule, streams: Sequence[np.random.Generator]
-) -> Engine:
     try:  # it takes 200 MB, which the compiled engine doesn't need
         from mc_nested.learn.dqn.torch_engine import engine, networks
     except ImportError as error:
@@ -46,9 +41,8 @@ def _made_torch_engine(
     device = engine.device_named(choice.device)
     shape = networks.input_shape(states)
     form = networks.form_of(choice.network, shape, choice.hidden, states.actions)
-    make = networks.network_maker(choice.network, choice.hidden)
-    online = networks.initial_rows(form, lambda: make(shape, states.actions), streams)
-    return engine.TorchEngine(states, form, lambda: make(shape, states.actions), rule, online, device)
+    make = partial(networks.network_maker(choice.network, choice.hidden), shape, states.actions)
+    return engine.TorchEngine(states, form, make, rule, networks.initial_rows(form, make, streams), device)
 
 
 NUMBERS, SCREEN, OBJECTIVES = "numbers", "screen", "objectives"

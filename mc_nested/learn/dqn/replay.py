@@ -17,7 +17,7 @@ FIRST_ROOM = 4096
 class Transitions(NamedTuple):
     """Transitions side by side, an array of each part in the caller's shape.
 
-    ``states`` (2, …) holds every s and every s', as ``States.kept`` gives them; ``discounts`` is the factor of the
+    ``states`` (2, …) holds every s and every s', as ``States`` gives them encoded; ``discounts`` is the factor of the
     value of s': γ, or 0 where the episode terminated.
     """
 

@@ -9,7 +9,7 @@ an input for each cell.
 import math
 from collections.abc import Sequence
 from functools import cached_property
-from typing import Any, Literal, NamedTuple, Protocol
+from typing import Any, Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -30,29 +30,6 @@ NONE, MANY = -1e6, 32.0
 
 Sees = Literal["everything", "objective", "surroundings"]
 """What the nested agent is shown of the objective and of what stands: both, or that one alone."""
-
-
-class States(Protocol):
-    """What the rows of a learner see and do."""
-
-    @property
-    def rows(self) -> int:
-        """How many rows there are."""
-
-    @property
-    def actions(self) -> int:
-        """How many actions there are."""
-
-    @property
-    def highest(self) -> int:
-        """The highest number that a replay keeps of a state; the lowest is 0."""
-
-    @property
-    def shape(self) -> tuple[int, ...]:
-        """The shape of what a replay keeps of one state; () for a single number."""
-
-    def encoded(self, states: NDArray[Any]) -> NDArray[Any]:
-        """Return what a replay keeps of the states (…): (…, *shape), whole numbers."""
 
 
 class PlaneStates(NamedTuple):
@@ -114,6 +91,8 @@ class StateSpace:
         self.rows = len(highest)
         radix = highest.max(axis=0) + 1
         self.count = int(radix.prod())
+        # A replay keeps an index; the highest is that of no state, the first beyond them.
+        self.highest, self.shape = self.count, ()
         self.strides = np.append(radix[:0:-1].cumprod()[::-1], 1)
         kinds, kind_of = np.unique(highest, axis=0, return_inverse=True)
         self.cells = int(radix[:2].prod())
@@ -127,16 +106,6 @@ class StateSpace:
         self.inputs = self.parts.cells.shape[1] + self.parts.rest.shape[1] - 1
         self._first = kind_of.reshape(-1) * self.count
 
-    @property
-    def highest(self) -> int:
-        """The highest index that a replay keeps: of no state, the first beyond them."""
-        return self.count
-
-    @property
-    def shape(self) -> tuple[int, ...]:
-        """() of an index."""
-        return ()
-
     def encoded(self, states: Integers) -> Int64s:
         """Return the index (…) of each state (…, width), which is all that a replay keeps of it."""
         indices: Int64s = states @ self.strides
@@ -149,15 +118,9 @@ class StateSpace:
     @cached_property
     def table(self) -> Float32s:
         """A row of features for each state of each kind of learner, each ending in a 1: (…, inputs + 1)."""
-        kinds = [
-            np.hstack((np.repeat(cells, self.rest, axis=0), np.tile(rest, (self.cells, 1))))
-            for cells, rest in zip(
-                self.parts.cells.reshape(-1, self.cells, self.parts.cells.shape[1]),
-                self.parts.rest.reshape(-1, self.rest, self.parts.rest.shape[1]),
-                strict=True,
-            )
-        ]
-        return np.concatenate(kinds)
+        width = self.parts.rest.shape[1]
+        rest = np.tile(self.parts.rest.reshape(-1, self.rest, width), (1, self.cells, 1)).reshape(-1, width)
+        return np.hstack((np.repeat(self.parts.cells, self.rest, axis=0), rest))
 
     def first_of(self, rows: Int64s) -> Int64s:
         """Return where in ``table`` the states of the named rows (k,) begin, (k,)."""
@@ -172,6 +135,13 @@ class StateSpace:
         """Return the features of every state for that row's network, by index: (states, inputs + 1), the last a 1."""
         first = self._first[row]
         return self.table[first : first + self.count]
+
+
+States = StateSpace | PlaneStates
+"""What the rows of a learner see and do.
+
+Of states (…) a replay keeps what ``encoded`` gives: whole numbers from 0 to ``highest``, (…, *shape).
+"""
 
 
 def numbered(states: States) -> StateSpace:

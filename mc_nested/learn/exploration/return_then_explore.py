@@ -24,9 +24,9 @@ from numpy.typing import NDArray
 
 from mc_nested.arena.env import BLOCKS_LEFT, X, Y
 from mc_nested.arena.scenario import DEFAULT_SIZE, Scenario
-from mc_nested.arrays import Arrays, Float64s, Int64s, named_for, part_of
+from mc_nested.arrays import Arrays, Float64s, Int64s, named_parts, part_of
 from mc_nested.learn.agents import Agent
-from mc_nested.learn.dqn.engine import Batch
+from mc_nested.learn.dqn.engine import lesson
 from mc_nested.learn.dqn.replay import Transitions
 from mc_nested.learn.dqn.self_imitation import BestEpisodes
 from mc_nested.learn.dqn.states import numbered
@@ -249,7 +249,6 @@ class Excursions(Practice):
             self._explorers[run].observe(EpisodeStep(*values))
 
     def end(self, runs: Int64s, materials: Int64s, scores: Float64s) -> None:  # noqa: ARG002 - the best is known by its steps
-        """End the episodes of the named runs (k,)."""
         for run in runs.tolist():
             last = {step.row for step in self._explorers[run].best}
             if self._explorers[run].end() and self._low_level.best:
@@ -273,19 +272,13 @@ class Excursions(Practice):
             if values is not None and (values.argmax(axis=1) == actions).all():
                 return update > 0
             at, tried = np.divmod(random.integers(0, len(walk) * self._space.actions, batch), self._space.actions)
-            rewards, none = (tried == actions[at]).astype(np.float32), np.zeros((1, batch), np.float32)
-            both = np.stack((states[at], states[at]))[:, None]
-            lesson = Batch(both, tried[None], rewards[None], none, none.astype(np.bool_), np.ones_like(none))
-            engine.update(rows, lesson)
+            engine.update(rows, lesson(states[at], tried, (tried == actions[at]).astype(np.float32)))
         return False
 
     def state(self) -> Arrays:
-        """Return everything that later steps depend on, by name."""
-        every = (named_for(str(run), explorer.state()) for run, explorer in enumerate(self._explorers))
-        return {name: kept for part in every for name, kept in part.items()}
+        return named_parts({str(run): explorer.state() for run, explorer in enumerate(self._explorers)})
 
     def load(self, state: Mapping[str, NDArray[Any]]) -> None:
-        """Continue from what ``state`` returned; KeyError or ValueError if its shape differs."""
         for run, explorer in enumerate(self._explorers):
             explorer.load(part_of(state, str(run)))
             if self._low_level.best:

@@ -28,7 +28,7 @@ from mc_nested.learn.games.episode import EpisodeOut, EpisodePlan, EpisodesOut, 
 from mc_nested.learn.learner import CHOICE_NUMBERS
 from mc_nested.learn.practice import Step
 from mc_nested.learn.preset import Preset
-from mc_nested.learn.streams import episode_stream, plan_stream
+from mc_nested.learn.streams import Purpose, stream
 from mc_nested.learn.training import Training
 
 PROCESSES = 1 << 62
@@ -49,14 +49,10 @@ def check_games(scenario: Scenario, preset: Preset) -> None:
 
 
 class GamesTrainer(Training):
-    """Trains one run until it has its episodes. Of its checkpoints a Trainer of one run can go on, and it of those.
+    """Trains one run until it has its episodes; arguments as ``Training``'s, of one run.
 
-    Args:
-        scenario: what is built.
-        agent: what is trained, in one run.
-        preset: the hyper-parameters; ``episodes`` as in the preset or as asked for.
-        seed: of all random choices; the same seed, and the same order of episodes, give the same training.
-        stop_at_optimum: finish at the first greedy evaluation at the scenario's optimum.
+    The same seed, and the same order of episodes, give the same training. Of its checkpoints a Trainer of one run can
+    go on, and it of those.
 
     Raises:
         PresetError: the preset explores, or the scenario is built, in a way that needs every step at once.
@@ -81,7 +77,7 @@ class GamesTrainer(Training):
         if self.finished:
             raise ValueError("the run is finished: there is nothing left to play")
         self._out.leave(game)
-        random = plan_stream(self._seed, self.agent.runs[0], self._planned)
+        random = stream(Purpose.PLANS, self._seed, self.agent.runs[0], self._planned)
         is_begun_from = self._last_evaluation < 0  # a policy from elsewhere is still to be evaluated as it is
         is_due = self._is_evaluation_due()
         self.practice.before_choice(RUN[:0] if is_begun_from else RUN, self._out.materials)
@@ -181,7 +177,7 @@ class GamesTrainer(Training):
 
     def _learn(self, out: EpisodeOut, played: PlayedEpisode, materials: Int64s) -> None:
         """Learn from the episode as if it were played now, step by step; nothing is stored of an evaluation."""
-        random = episode_stream(self._seed, self.agent.runs[0], out.plan.number)
+        random = stream(Purpose.EPISODES, self._seed, self.agent.runs[0], out.plan.number)
         batch, seen = self.preset.update.batch, played.observations
         states = self.agent.low_level_states(seen, materials)
         draws = random.random((played.steps, 1, self.preset.updates_a_step * batch))

@@ -1,4 +1,4 @@
-"""Practice beside a live game: while it resets, for at most a second longer, and on a copy while an episode runs.
+"""Practice before a simulated game's episode, or beside a live one's.
 
 A simulated game waits until practice is over. A live game's time is a person's: nobody is to wait longer than a second
 between two episodes. The compiled updates leave Python's lock to others, so a thread of its own does them. What isn't
@@ -32,6 +32,17 @@ class Background(Protocol):
         """
 
 
+class Foreground:
+    """No background: the game waits until the work is done."""
+
+    def begin(self, work: Callable[[GoesOn], None]) -> None:
+        """Do that work, to its end."""
+        work(lambda: True)
+
+    def end(self, longer_s: float = 0.0) -> None:
+        """Do nothing: it has ended."""
+
+
 class BackgroundThread:
     """Does its work in a thread. It goes on no longer than the main thread lives."""
 
@@ -42,13 +53,11 @@ class BackgroundThread:
         self._error: BaseException | None = None
 
     def begin(self, work: Callable[[GoesOn], None]) -> None:
-        """Begin that work."""
         self._ends_at, self._error = float("inf"), None
         self._thread = threading.Thread(target=self._do, args=(work,), name="practice")
         self._thread.start()
 
     def end(self, longer_s: float = 0.0) -> None:
-        """Let it go on for at most so many seconds, and wait for its end."""
         if self._thread is None:
             return
         self._ends_at = self._clock() + longer_s
@@ -68,7 +77,7 @@ class BackgroundThread:
 
 
 class BackgroundPractice:
-    """Practice of the runs that share a live game.
+    """Practice of the runs whose games reset together.
 
     Args:
         background: where it runs.
@@ -76,15 +85,15 @@ class BackgroundPractice:
 
     def __init__(self, background: Background) -> None:
         self._background = background
-        self._sessions: dict[int, PracticeSession] = {}
+        self._sessions: list[PracticeSession] = []
 
     def during_reset(self, sessions: Mapping[int, PracticeSession], reset: Callable[[], None]) -> None:
         """Run these sessions, by run, while the game resets, and LONGER_S after that.
 
         An error of the reset ends them and passes through; the best networks so far stay.
         """
-        self._sessions = dict(sessions)
-        for session in self._sessions.values():
+        self._sessions = list(sessions.values())
+        for session in self._sessions:
             session.prepare()
         self._begin()
         try:
@@ -96,20 +105,20 @@ class BackgroundPractice:
 
     def during_episode(self) -> None:
         """Go on with the practice that isn't over, on copies of the networks; the best networks so far play."""
-        self._sessions = {run: session for run, session in self._sessions.items() if not session.is_over}
-        for session in self._sessions.values():
+        self._sessions = [session for session in self._sessions if not session.is_over]
+        for session in self._sessions:
             session.go_on_with_a_copy()
         self._begin()
 
     def end_of_episode(self) -> None:
         """End the practice that goes on; the best networks that it found stay."""
         self._background.end()
-        for session in self._sessions.values():
+        for session in self._sessions:
             session.take_over()
-        self._sessions = {}
+        self._sessions = []
 
     def _begin(self) -> None:
-        sessions = list(self._sessions.values())
+        sessions = self._sessions
 
         def run_them(goes_on: GoesOn) -> None:
             for session in sessions:

@@ -4,6 +4,10 @@ Each cell's tries are counted, the later ones for more: one odd outcome is outvo
 a design changed in mid-training is unlearnt. As long as fewer paying cells are known than there are blocks, an unknown
 cell is taken to pay (R-max; Brafman and Tennenholtz, 2002), and more than what is known, since trying it teaches: first
 what lies beside a paying cell, where designs go on; everything, if nothing unknown lies there.
+
+Who has no learnt game to practise in goes by ``candidates``. As long as too few paying cells are known, every block
+tries a cell: one beside a paying cell, or else one in the middle of what is unknown, since a design that goes on from
+cell to cell is met there soonest.
 """
 
 from collections.abc import Collection
@@ -11,6 +15,7 @@ from dataclasses import dataclass
 from enum import IntEnum
 
 import numpy as np
+from numpy.lib.stride_tricks import sliding_window_view
 
 from mc_nested.arena.action import Cell
 from mc_nested.arrays import Bools, Float32s, Float64s, Int8s, Int64s
@@ -21,6 +26,9 @@ FAR_FROM_PAYING, KNOWN_TO_PAY = 0.2, 0.05
 """While exploring, what is imagined for an unknown cell that isn't beside a paying one, and for one known to pay; for
 an unknown cell beside a paying one it is 1."""
 
+AROUND = 2
+"""How far around a cell it is counted what is unknown."""
+
 
 class Belief(IntEnum):
     """What is thought of a cell."""
@@ -29,6 +37,10 @@ class Belief(IntEnum):
     BELIEVED = 1
     PAYS = 2
     PAYS_NOT = 3
+
+
+TO_FIND = Belief.BELIEVED, Belief.UNKNOWN, Belief.PAYS, Belief.PAYS_NOT
+"""What is tried while cells are to be found, in this order: where nothing is left, what paid nothing is tried again."""
 
 
 @dataclass(frozen=True)
@@ -102,6 +114,24 @@ def believe(
     return Beliefs(cells, pay, explores, most)
 
 
+def candidates(beliefs: Beliefs, buildable: Bools, cell: Cell, blocks: int) -> frozenset[Cell]:
+    """Return the cells where the next blocks should land; none if nothing that pays can be built any more.
+
+    Args:
+        beliefs: what is thought of every cell.
+        buildable: the cells where a block can land now, (size, size).
+        cell: where the agent stands.
+        blocks: how many are left.
+    """
+    for belief in TO_FIND if beliefs.explores else (Belief.PAYS,):
+        found = buildable & (beliefs.cells == belief)
+        if found.any():
+            if belief is Belief.UNKNOWN:
+                found = _spread((beliefs.cells == belief) & (beliefs.pay > 0), found, cell, blocks)
+            return frozenset((x, y) for x, y in np.argwhere(found).tolist())
+    return frozenset()
+
+
 def _reached(lands: Cell, size: int) -> Bools:
     """Return the cells that a block can land in from inside the arena."""
     reached = np.zeros((size, size), dtype=np.bool_)
@@ -112,8 +142,23 @@ def _reached(lands: Cell, size: int) -> Bools:
 
 def _beside(cells: Bools) -> Bools:
     """Return the cells with one of these among the eight around them."""
-    size = len(cells)
-    padded = np.pad(cells, 1)
-    around = [padded[x : x + size, y : y + size] for x in range(3) for y in range(3)]
-    beside: Bools = np.logical_or.reduce(around)
+    beside: Bools = sliding_window_view(np.pad(cells, 1), (3, 3)).max((2, 3))
     return beside
+
+
+def _spread(unknown: Bools, open_cells: Bools, cell: Cell, most: int) -> Bools:
+    """Return at most so many of the open cells: each has the most unknown cells around it, but for those before it.
+
+    Of several it is the nearest.
+    """
+    size = len(unknown)
+    around = sliding_window_view(np.pad(unknown, AROUND), (2 * AROUND + 1,) * 2).sum((2, 3))
+    away = np.abs(np.indices((size, size)) - np.array(cell)[:, None, None]).sum(0)
+    value = np.pad(np.where(open_cells, around - away / (2 * size), -np.inf), AROUND, constant_values=-np.inf)
+    chosen = np.zeros_like(open_cells)
+    for _ in range(min(most, int(open_cells.sum()))):
+        x, y = divmod(int(value.argmax()), size + 2 * AROUND)
+        chosen[x - AROUND, y - AROUND] = True
+        value[x, y] = -np.inf
+        value[x - AROUND : x + AROUND + 1, y - AROUND : y + AROUND + 1] -= 1
+    return chosen

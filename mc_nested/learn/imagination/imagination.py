@@ -14,7 +14,7 @@ from numpy.random import Generator
 from numpy.typing import NDArray
 
 from mc_nested.arena.action import Cell
-from mc_nested.arrays import Arrays, Bools, Float64s, Int64s, named_for, part_of
+from mc_nested.arrays import Arrays, Bools, Float64s, Int64s, named_for, named_parts, part_of
 from mc_nested.learn.dqn.states import numbered
 from mc_nested.learn.imagination.arena_step import expected_landings, imagined_arena
 from mc_nested.learn.imagination.beliefs import Belief, Beliefs, believe, evidence_of
@@ -33,7 +33,7 @@ from mc_nested.learn.imagination.practice_session import (
 )
 from mc_nested.learn.learner import CHOICE_NUMBERS, Learner
 from mc_nested.learn.preset import ImaginationRule, Preset
-from mc_nested.learn.streams import practice_stream
+from mc_nested.learn.streams import Purpose, stream
 
 THOROUGH = 0.999
 """Replaces ``enough`` beside other games: a policy that leaves a block over would take all the steps of an episode."""
@@ -106,15 +106,13 @@ class Imagination:
 
     def stream(self, run: int, number: int | None = None) -> Generator:
         """Return the random numbers of that run's practice of that number; unless given, of that before its episode."""
-        return practice_stream(self._seed, self._numbers[run], self.episodes(run) if number is None else number)
+        return stream(
+            Purpose.PRACTICE, self._seed, self._numbers[run], self.episodes(run) if number is None else number
+        )
 
-    def beliefs(self, run: int, rules: LearntRules | None = None, elsewhere: Collection[Cell] = ()) -> Beliefs:
-        """Return what that run thinks of every cell, by its rules.
-
-        What is probed ``elsewhere`` is taken to pay nothing.
-        """
-        here, rule = self._given_facts[run], self._rule
-        rules = rules or self.rules(run)
+    def beliefs(self, run: int, elsewhere: Collection[Cell] = ()) -> Beliefs:
+        """Return what that run thinks of every cell; what is probed ``elsewhere`` is taken to pay nothing."""
+        here, rule, rules = self._given_facts[run], self._rule, self.rules(run)
         evidence = evidence_of(self._experience[run].steps, rules.lands, here.size)
         blocks = here.start[2]
         return believe(evidence, rules.lands, blocks, rule.optimism, rule.neighbours, elsewhere, rules.walls)
@@ -158,7 +156,7 @@ class Imagination:
         """
         seen, here = self._experience[run], self._given_facts[run]
         rules = self.rules(run)
-        beliefs = self.beliefs(run, rules, elsewhere or ())
+        beliefs = self.beliefs(run, elsewhere or ())
         anew = bool(self._falls_short[run]) and not self._explores[run] and not beliefs.explores
         self._explores[run] = beliefs.explores
         self._unclear[run] = unclear_moves(seen.steps, self._space.actions)
@@ -218,26 +216,23 @@ class Imagination:
         """Return the unknown cells where that run's policy should place blocks next, with that material."""
         if not self.has_experience(run):
             return frozenset()
-        here, rules = self._given_facts[run], self.rules(run)
-        beliefs = self.beliefs(run, rules)
+        here, beliefs = self._given_facts[run], self.beliefs(run)
         row, others = np.array([self._row(run, material)]), self._appended(material)
 
         def policy(state: tuple[int, int, int]) -> int:
             states = np.array([[*state, *others]])
             return int(self._low_level.act(states, np.zeros(1), np.ones((1, CHOICE_NUMBERS)), row)[0])
 
-        arena = imagined_arena(rules, beliefs)
+        arena = imagined_arena(self.rules(run), beliefs)
         landings = expected_landings(arena, here.start, here.step_limit, policy, self.first_tries(run).copied())
         return frozenset(cell for cell in landings if beliefs.cells[cell] in (Belief.UNKNOWN, Belief.BELIEVED))
 
     def known_arena(self, run: int) -> KnownArena:
-        """Return what that run knows of its arena now, and where the blocks of its real episodes went."""
         seen, here, rules = self._experience[run], self._given_facts[run], self.rules(run)
         evidence = evidence_of(seen.steps, rules.lands, here.size)
         return known_arena(seen, rules.lands, believe(evidence, rules.lands, here.start[2], walls=rules.walls))
 
     def episodes(self, run: int) -> int:
-        """Return how many real episodes that run has begun."""
         return self._experience[run].episodes
 
     def begin_from(self, earlier: Mapping[str, NDArray[Any]], *, pays: bool, materials: bool) -> None:
@@ -252,14 +247,13 @@ class Imagination:
 
     def state(self) -> Arrays:
         """Return everything that later steps depend on, by name."""
-        every = (named_for(str(run), seen.state()) for run, seen in enumerate(self._experience))
         return {
             "explores": self._explores,
             "falls_short": self._falls_short,
             "untried": self._untried,
             "unclear": self._unclear,
             "tries": self._tries,
-            **{name: kept for part in every for name, kept in part.items()},
+            **named_parts({str(run): seen.state() for run, seen in enumerate(self._experience)}),
         }
 
     def load(self, state: Mapping[str, NDArray[Any]]) -> None:

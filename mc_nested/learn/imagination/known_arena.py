@@ -56,7 +56,7 @@ class Knowing(Protocol):
         """Return how many real episodes that run has begun."""
 
     def known_arena(self, run: int) -> KnownArena:
-        """Return what that run knows of its arena now."""
+        """Return what that run knows of its arena now, and where the blocks of its real episodes went."""
 
 
 def known_arena(experience: Experience, lands: Cell, beliefs: Beliefs) -> KnownArena:

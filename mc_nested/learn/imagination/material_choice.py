@@ -5,7 +5,7 @@ from collections.abc import Collection
 import numpy as np
 
 from mc_nested.arrays import Float64s, Int64s
-from mc_nested.learn.dqn.engine import Batch
+from mc_nested.learn.dqn.engine import lesson
 from mc_nested.learn.learner import Learner
 
 LAST = 3
@@ -44,17 +44,9 @@ def scores_of_materials(
 
 def learn_choice(main: Learner, row: int, start: Int64s, scores: Float64s) -> None:
     """Update that row of the main agent until its values of the start state (3,) are the scores (materials,)."""
-    rows, state = np.array([row]), main.states.encoded(start[None])
-    batch = main.engine.rule.batch
-    actions = np.arange(batch) % len(scores)
-    imagined = Batch(
-        states=np.broadcast_to(state, (2, 1, batch)).copy(),
-        actions=actions[None],
-        rewards=scores[actions].astype(np.float32)[None],
-        discounts=np.zeros((1, batch), np.float32),
-        imitated=np.zeros((1, batch), np.bool_),
-        weights=np.ones((1, batch), np.float32),
-    )
+    rows, batch = np.array([row]), main.engine.rule.batch
+    states, actions = main.states.encoded(start[None]).repeat(batch), np.arange(batch) % len(scores)
+    imagined = lesson(states, actions, scores[actions].astype(np.float32))
     for _ in range(MOST_UPDATES):
         if np.abs(main.engine.update(rows, imagined)).max() <= CLOSE:
             return

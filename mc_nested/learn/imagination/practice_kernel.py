@@ -22,7 +22,7 @@ from mc_nested.learn.dqn.compiled_engine.cell_networks import (
     by_node,
     forward_cells,
 )
-from mc_nested.learn.dqn.compiled_engine.engine import greedy_actions, td_target
+from mc_nested.learn.dqn.compiled_engine.engine import Networks, greedy_actions, td_target
 from mc_nested.learn.imagination.arena_step import (
     GREEDY_EVERY,
     NOWHERE,
@@ -53,16 +53,6 @@ class PracticeRule(NamedTuple):
     double: bool
     n_steps: int
     by_table: float
-
-
-class Row(NamedTuple):
-    """One learner's networks and moments, (parameters,) each, and its number of updates, (1,)."""
-
-    online: Float32s
-    target: Float32s
-    first_moment: Float32s
-    second_moment: Float32s
-    updates: Int64s
 
 
 class PracticeReplay(NamedTuple):
@@ -116,7 +106,7 @@ def practise(
     arena: ImaginedArena,
     task: ImaginedTask,
     rule: PracticeRule,
-    row: Row,
+    row: Networks,
     replay: PracticeReplay,
     work: Workspace,
     progress: Progress,
@@ -128,7 +118,7 @@ def practise(
     widely, most stay near the policy. They end where a block is wasted. Where an episode comes to a state again, a
     policy would go round for ever: a greedy episode ends there, another goes on by chance.
     """
-    _order_by_input(row, progress.best, work.sizes)
+    _order(row, progress.best, work.sizes, for_cells=True)
     batch = work.batch.values.shape[1]
     longest = 2 + task.step_limit * (2 + batch)
     used = 0
@@ -171,19 +161,17 @@ def practise(
         progress.episodes[0] += 1
         if greedy:
             _judge(score, task.aim, row.online, progress)
-    _order_by_node(row, progress.best, work.sizes)
+    _order(row, progress.best, work.sizes, for_cells=False)
 
 
 @compiled(nogil=True)
-def _order_by_input(row: Row, best: Float32s, sizes: Int64s) -> None:
+def _order(row: Networks, best: Float32s, sizes: Int64s, for_cells: bool) -> None:
+    """Order the first layers' weights for the passes of cell_networks.py, or back."""
     for parameters in (row.online, row.target, row.first_moment, row.second_moment, best):
-        by_input(parameters, sizes)
-
-
-@compiled(nogil=True)
-def _order_by_node(row: Row, best: Float32s, sizes: Int64s) -> None:
-    for parameters in (row.online, row.target, row.first_moment, row.second_moment, best):
-        by_node(parameters, sizes)
+        if for_cells:
+            by_input(parameters, sizes)
+        else:
+            by_node(parameters, sizes)
 
 
 @compiled(nogil=True)
@@ -212,7 +200,7 @@ def _store(replay: PracticeReplay, state: int, next_state: int, action: int, lan
 
 @compiled(nogil=True)
 def _update(
-    uniforms: Float64s, arena: ImaginedArena, rule: PracticeRule, row: Row, replay: PracticeReplay, work: Workspace
+    uniforms: Float64s, arena: ImaginedArena, rule: PracticeRule, row: Networks, replay: PracticeReplay, work: Workspace
 ) -> None:
     """Do one double-Q update (paper, equation 4) from a batch that the numbers (batch,) draw."""
     batch = len(uniforms)

@@ -9,13 +9,12 @@ from numpy.random import Generator
 from mc_nested.arena.action import Cell
 from mc_nested.arrays import Bools, Float64s, Int64s
 from mc_nested.learn.dqn.compiled_engine.cell_networks import passes_for
-from mc_nested.learn.dqn.compiled_engine.engine import compiled_engine
+from mc_nested.learn.dqn.compiled_engine.engine import Networks, compiled_engine
 from mc_nested.learn.dqn.compiled_engine.networks import initial_parameters, parameter_count
 from mc_nested.learn.dqn.states import numbered
 from mc_nested.learn.imagination.arena_step import NOWHERE, ImaginedArena, ImaginedTask, index_of
-from mc_nested.learn.imagination.practice_kernel import PracticeReplay, PracticeRule, Progress, Row, Workspace, practise
-from mc_nested.learn.imagination.table_learner import QTables, empty_tables, empty_trail, longest_episode
-from mc_nested.learn.imagination.table_practice import TablePractice
+from mc_nested.learn.imagination.practice_kernel import PracticeReplay, PracticeRule, Progress, Workspace, practise
+from mc_nested.learn.imagination.table_learner import QTables, TablePractice, empty_tables, empty_trail, longest_episode
 from mc_nested.learn.learner import Learner
 from mc_nested.learn.preset import MOST_BEFORE_PRACTICE, ImaginationRule, Preset
 
@@ -80,9 +79,9 @@ class PracticeSession:
 
     def __init__(
         self,
-        own: Row,
+        own: Networks,
         begin: Callable[[], None],
-        practise: Callable[[Float64s, Row, Progress], None],
+        practise: Callable[[Float64s, Networks, Progress], None],
         goal: Goal,
         random: Generator,
         numbers_at_once: int,
@@ -125,7 +124,7 @@ class PracticeSession:
 
     def go_on_with_a_copy(self) -> None:
         """Update a copy of the networks from now on, until ``take_over``; the row has the best ones meanwhile."""
-        self._parts = Row(*(part.copy() for part in self._own))
+        self._parts = Networks(*(part.copy() for part in self._own))
         self._own.online[:] = self._own.target[:] = self._progress.best
 
     def take_over(self) -> None:
@@ -172,8 +171,8 @@ class NetworkPractice:
     ) -> "PracticeSession":
         """Return a practice of that row, to be run; ``others`` are the integers of its state after x, y and b.
 
-        ``real`` are in its replay from the beginning. A row's sessions share arrays: of all of a learner's sessions
-        only the last may be run.
+        ``real`` are in its replay from the beginning. A learner's sessions share arrays: once one has begun, those
+        before it can't go on.
         """
         space, engine = self._space, self._engine
         offset = int(others @ space.strides[3:])
@@ -182,7 +181,7 @@ class NetworkPractice:
         )
         tables, rule = self._tables_for(arena, goal.step_limit), self._rule
         table = TablePractice(tables, arena, task, rule.gamma, goal.most_table_steps, random)
-        own = Row(*engine.row(row))
+        own = engine.row(row)
         work = self._workspaces[row]._replace(table=tables.by_blocks)
         if not goal.most_table_steps:
             rule = rule._replace(by_table=0.0)
@@ -198,7 +197,7 @@ class NetworkPractice:
                 own.first_moment[:] = own.second_moment[:] = 0.0
             table.begin()
 
-        def practise_on(numbers: Float64s, parts: Row, progress: Progress) -> None:
+        def practise_on(numbers: Float64s, parts: Networks, progress: Progress) -> None:
             if not table.is_over:
                 table.learn(numbers)
                 if len(numbers):
@@ -215,7 +214,9 @@ class NetworkPractice:
         space, cells = self._space, len(arena.empty)
         if self._tables is None or len(self._tables.built.here) != cells:
             self._tables = empty_tables(space.count, space.actions, cells)
-        return self._tables._replace(trail=empty_trail(step_limit), best=empty_trail(step_limit))
+        return self._tables._replace(
+            trail=empty_trail(step_limit), best=empty_trail(step_limit), best_steps=np.zeros(1, np.int64)
+        )
 
     def _workspace(self, row: int) -> Workspace:
         sizes, space = self._engine.sizes, self._space

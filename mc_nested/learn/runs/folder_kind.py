@@ -11,8 +11,6 @@ from mc_nested.toml_file import parse_document
 STUDY = "study"
 """The key of a study's config.toml that names it."""
 
-VERB_OF_KEY = {"agent": "train", STUDY: STUDY}
-
 VIEW = "view"
 VIEW_FILES = frozenset({"now.json", "history.jsonl", "pause.request", "stop.request", "answer.request", LOCK})
 """A run's folder of what ``mc-nested view`` shows, and its files; a run that never began leaves nothing else."""
@@ -28,8 +26,9 @@ def verb_of_study(name: str) -> str:
 
 def verb_in(document: Mapping[str, object]) -> str | None:
     """Return the verb that wrote this config.toml; None if it is no run's."""
-    key = next((key for key in VERB_OF_KEY if key in document), None)
-    return verb_of_study(str(document[STUDY])) if key == STUDY else VERB_OF_KEY.get(key or "")
+    if "agent" in document:
+        return "train"
+    return verb_of_study(str(document[STUDY])) if STUDY in document else None
 
 
 def check_config(text: str, folder: Path, *verbs: str) -> None:

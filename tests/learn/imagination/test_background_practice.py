@@ -9,20 +9,21 @@ import pytest
 
 from mc_nested.arrays import Float32s, Float64s
 from mc_nested.errors import LiveError
+from mc_nested.learn.dqn.compiled_engine.engine import Networks
 from mc_nested.learn.imagination.background_practice import LONGER_S, BackgroundPractice, BackgroundThread, GoesOn
-from mc_nested.learn.imagination.practice_kernel import Progress, Row
+from mc_nested.learn.imagination.practice_kernel import Progress
 from mc_nested.learn.imagination.practice_session import Goal, PracticeSession
 
 FOR_EVER, PATIENCE_S = 10**9, 10.0
 
 
-def row() -> Row:
+def row() -> Networks:
     online, target, first_moment, second_moment = np.zeros((4, 2), np.float32)
-    return Row(online, target, first_moment, second_moment, np.zeros(1, np.int64))
+    return Networks(online, target, first_moment, second_moment, np.zeros(1, np.int64))
 
 
 def session_of(
-    own: Row,
+    own: Networks,
     most_updates: int = FOR_EVER,
     after: Callable[[], None] = lambda: None,
     by: int = 1,
@@ -30,7 +31,7 @@ def session_of(
 ) -> PracticeSession:
     """Return a session whose updates add ``by`` to the online network, the best so far unless ``best`` is given."""
 
-    def practise(numbers: Float64s, parts: Row, progress: Progress) -> None:
+    def practise(numbers: Float64s, parts: Networks, progress: Progress) -> None:
         parts.online[:] += by * len(numbers)
         parts.updates[0] += len(numbers)
         progress.best[:] = parts.online if best is None else best
@@ -41,7 +42,7 @@ def session_of(
     return PracticeSession(own, lambda: None, practise, goal, np.random.default_rng(0), 1)
 
 
-def worsening_session(own: Row, after: Callable[[], None]) -> tuple[PracticeSession, Float32s]:
+def worsening_session(own: Networks, after: Callable[[], None]) -> tuple[PracticeSession, Float32s]:
     """Return a session whose updates take 1 from the online network and so worsen it, and the best network."""
     best = np.array([1.0, 1.0], np.float32)
     return session_of(own, after=after, by=-1, best=best), best

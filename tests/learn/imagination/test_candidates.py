@@ -4,8 +4,7 @@ import numpy as np
 
 from mc_nested.arena.action import Cell
 from mc_nested.arrays import Bools
-from mc_nested.learn.imagination.beliefs import Belief, Beliefs, believe, evidence_of
-from mc_nested.learn.imagination.candidates import candidates
+from mc_nested.learn.imagination.beliefs import Belief, Beliefs, believe, candidates, evidence_of
 from tests.learn.imagination.test_beliefs import AHEAD, SIZE, of, tries
 
 START = (2, 0)

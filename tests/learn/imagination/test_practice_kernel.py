@@ -8,7 +8,7 @@ from mc_nested.learn.dqn.compiled_engine.engine import compiled_engine
 from mc_nested.learn.dqn.engine import Batch
 from mc_nested.learn.dqn.states import numbered
 from mc_nested.learn.imagination.arena_step import GREEDY_EVERY, NOWHERE, ImaginedArena, ImaginedTask, cell_at, index_of
-from mc_nested.learn.imagination.practice_kernel import PracticeReplay, Progress, Row, followed, practise
+from mc_nested.learn.imagination.practice_kernel import PracticeReplay, Progress, followed, practise
 from mc_nested.learn.imagination.practice_session import NetworkPractice
 from mc_nested.learn.learner import Learner
 from tests.learn.imagination.made_games import BENT, RULE, SMALL, with_update
@@ -37,7 +37,7 @@ class Practising:
             practice._replay,
             practice._workspaces[0]._replace(table=np.zeros((space.count, space.actions), np.float32)),
         )
-        self.row = Row(*compiled_engine(learner.engine).row(0))
+        self.row = compiled_engine(learner.engine).row(0)
         self.progress = Progress(np.zeros(1, np.int64), np.zeros(1), np.zeros(1, np.bool_), self.row.online.copy())
 
     @property

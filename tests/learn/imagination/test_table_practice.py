@@ -4,10 +4,9 @@ import numpy as np
 import pytest
 
 from mc_nested.arena.scenario_file import load_scenario
-from mc_nested.learn.imagination import table_practice
+from mc_nested.learn.imagination import table_learner
 from mc_nested.learn.imagination.arena_step import ImaginedTask, index_of
-from mc_nested.learn.imagination.table_learner import empty_tables
-from mc_nested.learn.imagination.table_practice import NEARLY_1, TablePractice
+from mc_nested.learn.imagination.table_learner import NEARLY_1, TablePractice, empty_tables
 from tests.learn.imagination.made_games import BENT
 from tests.learn.imagination.made_practice import arena_of
 
@@ -52,10 +51,10 @@ def test_a_table_practice_without_steps_is_over_at_once_and_keeps_the_aim() -> N
 
 
 def test_a_table_practice_begins_anew_after_twice_as_many_steps_each_time(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(table_practice, "FIRST_STEPS", 2_000)
+    monkeypatch.setattr(table_learner, "FIRST_STEPS", 2_000)
     anew: list[int] = []
     table = practice(aim=ALL + 2, most_steps=30_000)
-    monkeypatch.setattr(table_practice, "begin_tables", lambda *_: anew.append(table.steps))
+    monkeypatch.setattr(table_learner, "begin_tables", lambda *_: anew.append(table.steps))
     run(table)
     assert [round(at / 2_000) for at in anew] == [1, 3, 7], "after 2,000 steps, 4,000 more, and 8,000 more"
 

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from mc_nested.arrays import Bools
 from mc_nested.learn.dqn.states import NONE, WANTED
 from mc_nested.learn.dqn.torch_engine import objective_networks as by_torch
-from mc_nested.learn.dqn.torch_engine.layout import flat_of
+from mc_nested.learn.dqn.torch_engine.rows import flat_of
 from mc_nested.learn.objectives.arenas import order_planes, outside, plane_of_each, reach_planes, side_for
 from mc_nested.learn.objectives.networks import OrderNetwork, ReachNetwork
 

@@ -16,7 +16,7 @@ from mc_nested.compiled import compiled
 from mc_nested.learn.dqn.compiled_engine.adam import adam_step
 from mc_nested.learn.dqn.compiled_engine.networks import Sizes, backward, forward, hidden_for
 from mc_nested.learn.dqn.compiled_engine.target_values import TargetValues, table_pays
-from mc_nested.learn.dqn.engine import Batch, Engine, LastBatches, NetworkForm, UpdateRule, diverged
+from mc_nested.learn.dqn.engine import MLP, Batch, Engine, LastBatches, NetworkForm, UpdateRule, diverged
 from mc_nested.learn.dqn.self_imitation import rival
 from mc_nested.learn.dqn.states import StateParts, StateSpace
 
@@ -24,40 +24,17 @@ EXPONENT = np.uint32(0x7F800000)
 """The bits of a 32-bit float's exponent: all are set where a number is infinite or nan."""
 
 
-class _Networks(NamedTuple):
-    """What an update changes, (rows, parameters): the online networks and Adam's moments; ``updates`` is (rows,)."""
+class Networks(NamedTuple):
+    """What updates change: the online and target networks and Adam's moments, (rows, parameters) each, and a count.
+
+    ``updates`` is (rows,). Of one row alone: (parameters,) each, and (1,).
+    """
 
     online: Float32s
+    target: Float32s
     first_moment: Float32s
     second_moment: Float32s
     updates: Int64s
-
-
-class _StateTable(NamedTuple):
-    """What is known of every state: the features, where each named row's begin (k,), and the target's values.
-
-    Without a table of values, (rows, 0, actions), a batch's come from the target networks, (rows, parameters).
-    """
-
-    parts: StateParts
-    first: Int64s
-    target_values: Float32s
-    target: Float32s
-
-
-class _Workspace(NamedTuple):
-    """The hidden nodes of a network's passes over one batch, and room for its backward pass."""
-
-    hidden: tuple[Float32s, ...]
-    next_hidden: tuple[Float32s, ...]
-    scratch: tuple[Float32s, ...]
-
-
-class _Estimates(NamedTuple):
-    """What an update writes down of each row's batch, (rows, batch): Q(s, a) before it, and the TD errors."""
-
-    values: Float32s
-    errors: Float32s
 
 
 class CompiledEngine:
@@ -71,10 +48,11 @@ class CompiledEngine:
     """
 
     def __init__(self, space: StateSpace, sizes: Sizes, rule: UpdateRule, online: Float32s) -> None:
-        self.space, self.sizes, self.rule, self.online = space, sizes, rule, online
-        self.target = online.copy()
-        self.updates: Int64s = np.zeros(len(online), dtype=np.int64)
-        self._first_moment, self._second_moment = np.zeros_like(online), np.zeros_like(online)
+        self.space, self.sizes, self.rule = space, sizes, rule
+        self.form = NetworkForm(MLP, sizes)
+        moments = np.zeros_like(online), np.zeros_like(online)
+        self._networks = Networks(online, online.copy(), *moments, np.zeros(len(online), np.int64))
+        self.online, self.target, self.updates = online, self._networks.target, self._networks.updates
         tabulated = table_pays(space.count, rule.batch, rule.target_period)
         self._target_values = TargetValues(space, sizes, self.target, tabulated)
         self.last = LastBatches(len(online), rule)
@@ -82,13 +60,7 @@ class CompiledEngine:
         self._widths = np.array(sizes, dtype=np.int64)
         self._acting = hidden_for(sizes, 1)
         self._parts = tuple(space.parts)
-        self._networks = self.online, self._first_moment, self._second_moment, self.updates
-        self._learning = tuple(hidden_for(sizes, rule.batch) for _ in _Workspace._fields)
-        self._estimates = self.last.values, self.last.errors
-
-    @property
-    def form(self) -> NetworkForm:
-        return NetworkForm("mlp", self.sizes)
+        self._learning = tuple(hidden_for(sizes, rule.batch) for _ in range(3))
 
     def load_online(self, online: Float32s) -> None:
         if online.shape != self.online.shape:
@@ -106,9 +78,9 @@ class CompiledEngine:
     def update(self, rows: Int64s, batch: Batch) -> Float32s:
         if batch.actions.shape != (len(rows), self.rule.batch):
             raise ValueError(f"batches of {batch.actions.shape}, not {(len(rows), self.rule.batch)}")
-        states = self._parts, self.space.first_of(rows), self._target_values.values, self.target
-        how = self._widths, tuple(self.rule), self._learning, self._estimates
-        finite, renews = _update_rows(rows, self._networks, tuple(batch), states, *how)
+        states = self._parts, self.space.first_of(rows), self._target_values.values
+        how = self._widths, tuple(self.rule), self._learning, (self.last.values, self.last.errors)
+        finite, renews = _update_rows(rows, tuple(self._networks), tuple(batch), states, *how)
         if not finite:
             raise diverged(self.rule, self.updates[rows])
         if renews:
@@ -117,13 +89,9 @@ class CompiledEngine:
             self._target_values.renew(due, self.target[due])
         return self.last.errors.take(rows, axis=0)  # a third of the time of an index of many rows
 
-    def row(self, row: int) -> tuple[Float32s, Float32s, Float32s, Float32s, Int64s]:
-        """Return a row's online and target network, Adam's moments, (parameters,) each, and updates (1,), uncopied.
-
-        For what updates them itself.
-        """
-        moments = self._first_moment[row], self._second_moment[row]
-        return self.online[row], self.target[row], *moments, self.updates[row : row + 1]
+    def row(self, row: int) -> Networks:
+        """Return one row's networks, uncopied, for what updates them itself."""
+        return Networks._make([*(part[row] for part in self._networks[:-1]), self.updates[row : row + 1]])
 
     def check_finite(self, row: int, online: Float32s | None = None) -> None:
         """Raise DivergedError if a parameter of that row's online network, or of what it is to become, is no number."""
@@ -131,13 +99,7 @@ class CompiledEngine:
             raise diverged(self.rule, self.updates[row : row + 1])
 
     def state(self) -> dict[str, NDArray[Any]]:
-        return {
-            "online": self.online,
-            "target": self.target,
-            "first_moment": self._first_moment,
-            "second_moment": self._second_moment,
-            "updates": self.updates,
-        }
+        return self._networks._asdict()
 
     def load(self, state: Mapping[str, NDArray[Any]]) -> None:
         for name, own in self.state().items():
@@ -223,15 +185,20 @@ def _update_rows(
     sizes: Int64s,
     of_rule: tuple[Any, ...],
     of_work: tuple[Any, ...],
-    of_estimates: tuple[Any, ...],
+    last: tuple[Float32s, Float32s],
 ) -> tuple[bool, bool]:
     """Do ``CompiledEngine.update``, row by row. Compiled code takes plain tuples over in a third of named ones' time.
 
+    ``of_states`` are the features of every state (StateParts), where each named row's begin (k,), and the targets'
+    values: without a table of them, (rows, 0, actions), a batch's come from the target networks. ``of_work`` is room
+    for the hidden nodes of s, of s', and of the backward pass; ``last`` are the arrays of LastBatches.
+
     Return whether all parameters are numbers afterwards, and whether any row's target is due.
     """
-    networks, batch, rule = _Networks(*of_networks), Batch(*of_batch), UpdateRule(*of_rule)
-    states = _StateTable(StateParts(*of_states[0]), of_states[1], of_states[2], of_states[3])
-    work, estimates = _Workspace(*of_work), _Estimates(*of_estimates)
+    networks, batch, rule = Networks(*of_networks), Batch(*of_batch), UpdateRule(*of_rule)
+    parts, firsts, target_values = StateParts(*of_states[0]), of_states[1], of_states[2]
+    hidden, next_hidden, scratch = of_work
+    last_values, last_errors = last
     finite, renews = True, False
     count = batch.actions.shape[1]
     inputs = np.empty((sizes[0] + 1, count), np.float32)
@@ -241,21 +208,21 @@ def _update_rows(
     gradient = np.empty(networks.online.shape[1], np.float32)
     greedy = np.empty(count, np.int32)
     bootstrap = np.empty(count, np.float32)
-    tabulated = states.target_values.shape[1] > 0
+    tabulated = target_values.shape[1] > 0
     for at in range(len(rows)):
         row = rows[at]
         online = networks.online[row]
-        _look_up(batch.states[0, at], states.first[at], states.parts, inputs)
-        _look_up(batch.states[1, at], states.first[at], states.parts, next_inputs)
+        _look_up(batch.states[0, at], firsts[at], parts, inputs)
+        _look_up(batch.states[1, at], firsts[at], parts, next_inputs)
         if not tabulated:
-            forward(states.target[row], sizes, next_inputs, work.next_hidden, next_targets)
-        forward(online, sizes, next_inputs, work.next_hidden, next_values)
-        forward(online, sizes, inputs, work.hidden, values)
+            forward(networks.target[row], sizes, next_inputs, next_hidden, next_targets)
+        forward(online, sizes, next_inputs, next_hidden, next_values)
+        forward(online, sizes, inputs, hidden, values)
         greedy_actions(next_values, greedy)
         for column in range(count):
             best = greedy[column]
             if tabulated:
-                bootstrap[column] = states.target_values[row, batch.states[1, at, column], best]
+                bootstrap[column] = target_values[row, batch.states[1, at, column], best]
             else:
                 bootstrap[column] = next_targets[best, column]
         slope[:] = np.float32(0)
@@ -263,7 +230,7 @@ def _update_rows(
             action, next_value = batch.actions[at, column], bootstrap[column]
             target = td_target(batch.rewards[at, column], batch.discounts[at, column], next_value)
             error = values[action, column] - target
-            estimates.values[row, column], estimates.errors[row, column] = values[action, column], error
+            last_values[row, column], last_errors[row, column] = values[action, column], error
             clipped = min(max(error, -rule.huber_delta), rule.huber_delta)
             slope[action, column] = clipped * batch.weights[at, column] / count
             if batch.imitated[at, column]:
@@ -271,7 +238,7 @@ def _update_rows(
                 if other != action:
                     slope[other, column] += np.float32(1 / count)
                     slope[action, column] -= np.float32(1 / count)
-        backward(online, sizes, inputs, work.hidden, slope, gradient, work.scratch)
+        backward(online, sizes, inputs, hidden, slope, gradient, scratch)
         networks.updates[row] += 1
         renews = renews or networks.updates[row] % rule.target_period == 0
         moments = networks.first_moment[row], networks.second_moment[row]

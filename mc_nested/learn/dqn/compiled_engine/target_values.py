@@ -38,9 +38,7 @@ class TargetValues:
     def __init__(self, space: StateSpace, sizes: Sizes, target: Float32s, tabulated: bool = True) -> None:
         self._space = space
         self._sizes = np.array(sizes, dtype=np.int64)
-        self._inputs = np.zeros((space.inputs + 1, AT_ONCE), np.float32)
         self._hidden = hidden_for(sizes, AT_ONCE)
-        self._some = np.empty((space.actions, AT_ONCE), np.float32)
         self.values = np.empty((space.rows, space.count if tabulated else 0, space.actions), np.float32)
         self.renew(np.arange(space.rows), target)
 
@@ -49,23 +47,17 @@ class TargetValues:
         if not self.values.size:
             return
         for row, parameters in zip(rows, target, strict=True):
-            features = self._space.features_of(row)
-            _value_all(parameters, self._sizes, features, self._inputs, self._hidden, self._some, self.values[row])
+            _value_all(parameters, self._sizes, self._space.features_of(row), self._hidden, self.values[row])
 
 
 @compiled()
 def _value_all(
-    parameters: Float32s,
-    sizes: Int64s,
-    features: Float32s,
-    inputs: Float32s,
-    hidden: Sequence[Float32s],
-    some: Float32s,
-    values: Float32s,
+    parameters: Float32s, sizes: Int64s, features: Float32s, hidden: Sequence[Float32s], values: Float32s
 ) -> None:
-    at_once = inputs.shape[1]
-    for start in range(0, len(features), at_once):
-        count = min(at_once, len(features) - start)
+    inputs = np.zeros((features.shape[1], AT_ONCE), np.float32)
+    some = np.empty((values.shape[1], AT_ONCE), np.float32)
+    for start in range(0, len(features), AT_ONCE):
+        count = min(AT_ONCE, len(features) - start)
         inputs[:, :count] = features[start : start + count].T
         forward(parameters, sizes, inputs, hidden, some)
         values[start : start + count] = some[:, :count].T

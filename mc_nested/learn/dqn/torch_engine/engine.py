@@ -62,6 +62,8 @@ class TorchEngine:
             stacks = stacks and can_be_stacked(tried, input_shape(states))
             self._values = NetworkRows(lambda: make().to(device), self._online, stacks)
             self._target_values = NetworkRows(lambda: make().to(device), self._target, stacks)
+        moments = {"first_moment": self._first, "second_moment": self._second}
+        self._tensors = {"online": self._online, "target": self._target, **moments}
         self.last = LastBatches(len(online), rule)
         self._every_row = np.arange(len(online))
 
@@ -144,22 +146,14 @@ class TorchEngine:
             own.copy_(torch.from_numpy(online))
 
     def state(self) -> Arrays:
-        return {**{name: _array(own) for name, own in self._tensors().items()}, "updates": self.updates}
+        return {**{name: _array(own) for name, own in self._tensors.items()}, "updates": self.updates}
 
     def load(self, state: Mapping[str, NDArray[Any]]) -> None:
-        for name, own in self._tensors().items():
+        for name, own in self._tensors.items():
             if state[name].shape != tuple(own.shape):
                 raise ValueError(f"{name} is {state[name].shape}, it should be {tuple(own.shape)}")
             own.copy_(torch.from_numpy(np.ascontiguousarray(state[name])))
         self.updates[:] = state["updates"]
-
-    def _tensors(self) -> dict[str, Tensor]:
-        return {
-            "online": self._online,
-            "target": self._target,
-            "first_moment": self._first,
-            "second_moment": self._second,
-        }
 
     def _tensor(self, array: NDArray[Any]) -> Tensor:
         return torch.from_numpy(array).to(self._device)

@@ -23,8 +23,8 @@ from mc_nested.errors import PresetError
 from mc_nested.learn.dqn.compiled_engine.networks import Sizes, initial_parameters
 from mc_nested.learn.dqn.engine import CNN, MLP, ORDER, REACH, NetworkForm
 from mc_nested.learn.dqn.states import PlaneStates, States, StateSpace, numbered
-from mc_nested.learn.dqn.torch_engine.layout import flat_of
 from mc_nested.learn.dqn.torch_engine.objective_networks import OrderModule, ReachModule
+from mc_nested.learn.dqn.torch_engine.rows import flat_of
 
 LARGEST_SIDE_OF_SMALL = 40
 """Planes of more cells a side are pictures: they get the deep Q-network's layers for pictures (Mnih et al., 2013)."""
@@ -48,16 +48,11 @@ def cnn(shape: tuple[int, ...], hidden: Sequence[int], actions: int) -> nn.Modul
     """Make convolutions, then dense layers of the ``hidden`` widths, all with ReLU, and a linear output."""
     planes, height, width = shape
     if max(height, width) > LARGEST_SIDE_OF_SMALL:
-        layers: list[nn.Module] = [
-            *(nn.Conv2d(planes, 16, 8, stride=4), nn.ReLU()),
-            *(nn.Conv2d(16, 32, 4, stride=2), nn.ReLU()),
-        ]
+        first, second = nn.Conv2d(planes, 16, 8, stride=4), nn.Conv2d(16, 32, 4, stride=2)
     else:
-        layers = [
-            *(nn.Conv2d(planes, 16, 3, stride=2, padding=1), nn.ReLU()),
-            *(nn.Conv2d(16, 32, 3, stride=2, padding=1), nn.ReLU()),
-        ]
-    layers.append(nn.Flatten())
+        first = nn.Conv2d(planes, 16, 3, stride=2, padding=1)
+        second = nn.Conv2d(16, 32, 3, stride=2, padding=1)
+    layers: list[nn.Module] = [first, nn.ReLU(), second, nn.ReLU(), nn.Flatten()]
     inputs = nn.Sequential(*layers)(torch.zeros(1, *shape)).shape[1]
     for below, above in pairwise((inputs, *hidden)):
         layers += [nn.Linear(below, above), nn.ReLU()]
@@ -176,11 +171,9 @@ def inputs_of(states: States, device: torch.device) -> Inputs:
 
 
 def _bits(planes: tuple[int, ...], device: torch.device) -> Inputs:
-    places = torch.arange(7, -1, -1, dtype=torch.uint8, device=device)
-
     def unpack(kept: NDArray[Any], _: Int64s) -> Tensor:
-        bits = torch.from_numpy(kept).to(device).unsqueeze(-1).bitwise_right_shift(places).bitwise_and_(1).flatten(-2)
-        return bits[..., : math.prod(planes)].reshape(*kept.shape[:-1], *planes).float()
+        bits = np.unpackbits(kept, axis=-1, count=math.prod(planes)).reshape(*kept.shape[:-1], *planes)
+        return torch.from_numpy(bits).to(device).float()
 
     return unpack
 

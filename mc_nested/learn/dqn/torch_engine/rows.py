@@ -1,5 +1,10 @@
-"""Rows of networks of one form, whose parameters are one tensor: one row by autograd, several stacked by torch.func."""
+"""Rows of networks of one form, whose parameters are one tensor: one row by autograd, several stacked by torch.func.
 
+A dense layer lies in its row as the compiled engine's, each node's bias last. So an mlp of one engine can be handed to
+the other, and a checkpoint or an optimiser step is one array.
+"""
+
+import math
 from collections.abc import Callable, Sequence
 from typing import NamedTuple
 
@@ -8,8 +13,59 @@ import torch
 from torch import Tensor, nn
 from torch.func import functional_call, vmap
 
-from mc_nested.arrays import Int64s
-from mc_nested.learn.dqn.torch_engine.layout import bind, parts_of, slots_of
+from mc_nested.arrays import Float32s, Int64s
+
+BOTH = {"weight", "bias"}
+"""The parameters of a dense layer as it usually is."""
+
+
+class Slot(NamedTuple):
+    """Parameters that lie together: one, or a dense layer's weights and biases."""
+
+    names: tuple[str, ...]
+    shape: tuple[int, ...]
+
+
+def slots_of(module: nn.Module) -> tuple[Slot, ...]:
+    """Return the slots of a module's parameters, in the order of the module."""
+    slots = []
+    for path, part in module.named_modules():
+        own = {f"{path}.{name}".lstrip("."): each for name, each in part.named_parameters(recurse=False)}
+        if isinstance(part, nn.Linear) and {name for name, _ in part.named_parameters(recurse=False)} == BOTH:
+            slots.append(Slot(tuple(own), (part.out_features, part.in_features + 1)))
+        else:
+            slots += [Slot((name,), tuple(each.shape)) for name, each in own.items()]
+    return tuple(slots)
+
+
+def parts_of(rows: Tensor, slots: Sequence[Slot]) -> dict[str, Tensor]:
+    """Return views of each parameter in the rows (…, parameters), (…, *its shape), by name."""
+    parts, start = {}, 0
+    for slot in slots:
+        end = start + math.prod(slot.shape)
+        lying = rows[..., start:end].view(*rows.shape[:-1], *slot.shape)
+        if len(slot.names) == 1:
+            parts[slot.names[0]] = lying
+        else:
+            parts[slot.names[0]], parts[slot.names[1]] = lying[..., :-1], lying[..., -1]
+        start = end
+    return parts
+
+
+def bind(module: nn.Module, row: Tensor) -> None:
+    """Make the module's parameters views of the row (parameters,): a change there is a change of the module."""
+    own = dict(module.named_parameters())
+    for name, part in parts_of(row, slots_of(module)).items():
+        own[name].data = part
+
+
+def flat_of(module: nn.Module) -> Float32s:
+    """Return a copy of a module's parameters as one row (parameters,)."""
+    own = dict(module.named_parameters())
+    row = torch.empty(sum(each.numel() for each in own.values()))
+    for name, part in parts_of(row, slots_of(module)).items():
+        part.copy_(own[name].detach())
+    return row.numpy()
 
 
 class Values(NamedTuple):

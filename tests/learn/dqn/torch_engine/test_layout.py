@@ -1,10 +1,9 @@
 """Where parameters lie in a row: a dense layer's biases beside its weights, as the compiled engine has them."""
 
-import numpy as np
 import torch
 from torch import nn
 
-from mc_nested.learn.dqn.torch_engine.layout import Slot, bind, flat_of, laid_out, parts_of, slots_of
+from mc_nested.learn.dqn.torch_engine.rows import Slot, bind, flat_of, parts_of, slots_of
 
 
 def small() -> nn.Module:
@@ -48,4 +47,7 @@ def test_laying_out_the_parts_of_rows_restores_the_rows() -> None:
         "2.bias": (2, 3),
         "3.weight": (2, 1, 3),
     }
-    np.testing.assert_array_equal(laid_out(list(parts.values()), slots, 2), rows)
+    again = torch.zeros_like(rows)
+    for name, part in parts_of(again, slots).items():
+        part.copy_(parts[name])
+    assert torch.equal(again, rows)

@@ -9,8 +9,8 @@ import torch
 from mc_nested.errors import PresetError
 from mc_nested.learn.dqn.compiled_engine.networks import initial_parameters
 from mc_nested.learn.dqn.engine import NetworkForm
-from mc_nested.learn.dqn.torch_engine.layout import flat_of
 from mc_nested.learn.dqn.torch_engine.networks import cnn, form_of, initial_rows, network_maker
+from mc_nested.learn.dqn.torch_engine.rows import flat_of
 
 OWN = "tests.learn.dqn.torch_engine.own_networks"
 

@@ -5,9 +5,8 @@ import pytest
 import torch
 from torch import nn
 
-from mc_nested.learn.dqn.torch_engine.layout import flat_of
 from mc_nested.learn.dqn.torch_engine.networks import cnn, mlp
-from mc_nested.learn.dqn.torch_engine.rows import NetworkRows
+from mc_nested.learn.dqn.torch_engine.rows import NetworkRows, flat_of
 
 SHAPE = (3, 9, 9)
 
