@@ -19,10 +19,10 @@ from mc_nested.learn.games.episode import PlayedEpisode
 from mc_nested.learn.games.games_trainer import GamesTrainer
 from mc_nested.learn.runs.run_folder import RunFolder
 from mc_nested.workers.cluster.address import SchedulerAddress, scheduler_address
-from mc_nested.workers.cluster.cluster_workers import counted
 from mc_nested.workers.cluster.connection import connected
+from mc_nested.workers.cluster.dask_jobs import counted
 from mc_nested.workers.games.dask_games import Answered, DaskGames, GameEvent, Joined, NameTaken, Unreachable
-from mc_nested.workers.games.messages import GameAnswer, GameSetup
+from mc_nested.workers.games.mailbox import GameAnswer, GameSetup
 from sim.worlds import Backend
 
 if TYPE_CHECKING:  # the cluster extra's

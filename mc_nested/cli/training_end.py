@@ -22,8 +22,7 @@ from mc_nested.learn.runs.run_config import RunConfig
 from mc_nested.learn.runs.run_folder import RunFolder
 from mc_nested.learn.training import Training
 from mc_nested.report.arena_map import draw_map
-from mc_nested.report.curve import align_trials, draw_curve
-from mc_nested.report.played_curve import draw_played_curve, played_by
+from mc_nested.report.curve import align_trials, draw_curve, draw_played_curve, played_by
 from sim.team_grid import team_arenas
 
 CURVE, MAP, PICTURE = "curve.png", "map.png", "team.png"

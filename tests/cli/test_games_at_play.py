@@ -13,7 +13,7 @@ from mc_nested.errors import ClusterError
 from mc_nested.learn.games.episode import EpisodePlan, PlayedEpisode
 from mc_nested.learn.games.player import play_episode
 from mc_nested.workers.games.dask_games import Answered, GameEvent, Joined, Left, NameTaken, Unreachable
-from mc_nested.workers.games.messages import GameAnswer
+from mc_nested.workers.games.mailbox import GameAnswer
 from sim.grid import GridGame
 from tests.learn.made_experiments import DOT
 from tests.workers.games.made_setups import SETUP, new_trainer

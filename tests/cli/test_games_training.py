@@ -29,8 +29,7 @@ from mc_nested.workers.games import mailbox as mailboxes
 from mc_nested.workers.games.dask_games import Answered, DaskGames, GameEvent
 from mc_nested.workers.games.game_server import GameServer, OpenGame
 from mc_nested.workers.games.game_worker import GameWorker
-from mc_nested.workers.games.mailbox import Mailbox
-from mc_nested.workers.games.messages import GameAnswer, GameSetup
+from mc_nested.workers.games.mailbox import GameAnswer, GameSetup, Mailbox
 from sim.virtual_games import VirtualPlay, open_virtual_games
 from tests.cli.running import check_mistake, run, table
 from tests.dask_fixture import LEFTOVERS, leftovers

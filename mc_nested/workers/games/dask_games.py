@@ -16,8 +16,7 @@ from mc_nested.workers.cluster.job_task import GAME
 from mc_nested.workers.cluster.versions import own_versions
 from mc_nested.workers.executor import come_to
 from mc_nested.workers.games.game_worker import NAMES
-from mc_nested.workers.games.mailbox import ask_game, packed
-from mc_nested.workers.games.messages import GameAnswer, GameSetup
+from mc_nested.workers.games.mailbox import GameAnswer, GameSetup, ask_game, packed
 
 if TYPE_CHECKING:  # the cluster extra's
     from distributed import Client

@@ -23,8 +23,7 @@ from mc_nested.workers.games import dask_games, game_worker
 from mc_nested.workers.games import mailbox as mailboxes
 from mc_nested.workers.games.dask_games import Answered, DaskGames, GameEvent, Joined, Left, NameTaken, Unreachable
 from mc_nested.workers.games.game_worker import LOST, GameWorker
-from mc_nested.workers.games.mailbox import Mailbox, Request
-from mc_nested.workers.games.messages import GameAnswer
+from mc_nested.workers.games.mailbox import GameAnswer, Mailbox, Request
 from tests.dask_fixture import LEFTOVERS, leftovers
 from tests.learn.made_experiments import DOT, one_job
 from tests.workers.cluster.dask_programs import scheduler, worker
