@@ -32,7 +32,7 @@ class OwnPlayer:
     failures: FailureBudget = field(default_factory=FailureBudget)
 
     def play_on(self) -> list[str]:
-        """Play one tick. A mishap in a running game costs its episode, and is counted.
+        """Play one tick, and return the practice's news. A mishap in a running game costs its episode, and is counted.
 
         A person in another window who pauses, or did so shortly before, is not counted as a mishap.
         """

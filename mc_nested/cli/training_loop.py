@@ -5,15 +5,15 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any, Protocol
+from typing import Any
 
-from mc_nested.cli.games_at_play import games_at_play
+from mc_nested.cli.games_at_play import GamesAtPlay, games_at_play
 from mc_nested.cli.interrupt import Interrupt, Stopped, catch_interrupts
 from mc_nested.cli.output import Output
-from mc_nested.cli.own_player import own_player
+from mc_nested.cli.own_player import OwnPlayer, own_player
 from mc_nested.cli.progress import STOPPING, TrainingProgress
 from mc_nested.cli.training_end import draw_results, say_end
-from mc_nested.cli.training_view import Arenas, TrainingView
+from mc_nested.cli.training_view import TrainingView
 from mc_nested.cli.view import Viewed, viewed
 from mc_nested.errors import ClusterError, DesktopError, LiveError
 from mc_nested.learn.runs.earlier_run import EarlierRun, earlier_run
@@ -31,31 +31,8 @@ SAVE_EVERY_S = {Backend.SIM: 60.0, Backend.VIRTUAL: 60.0, Backend.LIVE: 15.0}
 """Seconds between checkpoints, which is what a kill can cost: in the simulator, or in a game of a block per second."""
 
 
-class EpisodePlayer(Protocol):
-    """Who plays a training's episodes: this computer (own_player.py), or games elsewhere (games_at_play.py)."""
-
-    @property
-    def training(self) -> Training:
-        """What is trained."""
-
-    @property
-    def arenas(self) -> Arenas:
-        """Where, for a view."""
-
-    def play_on(self) -> list[str]:
-        """Play on for a moment; return lines about who came and what was lost.
-
-        LiveError, DesktopError or ClusterError if it can't go on.
-        """
-
-    def end(self) -> None:
-        """Take what is still under way, and play nothing more."""
-
-    def in_words(self) -> str:
-        """Return who plays, where there are several; otherwise an empty text."""
-
-    def summary(self) -> dict[str, Any]:
-        """Return what playing took, for a training's summary; nothing for the simulator."""
+EpisodePlayer = OwnPlayer | GamesAtPlay
+"""Who plays a training's episodes: this computer, or games elsewhere."""
 
 
 @dataclass(frozen=True)
@@ -77,7 +54,7 @@ class TrainingLoop:
     began: float
 
     def run(self, output: Output) -> None:
-        """Train until it is finished or somebody stops it; errors as ``EpisodePlayer.play_on`` raises them."""
+        """Train until it is finished or somebody stops it; errors as its player's ``play_on`` raises them."""
         training, player, config = self.player.training, self.player, self.folder.config
         every = SAVE_EVERY_S[Backend(config.backend)]
         save_at = time.monotonic() + every

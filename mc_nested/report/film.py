@@ -5,7 +5,6 @@ import tempfile
 from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager, contextmanager, suppress
 from pathlib import Path
-from typing import Protocol
 
 from mc_nested.arena.drawing import Picture
 from mc_nested.atomic_file import atomic_write, refused_as
@@ -22,18 +21,8 @@ ROOM = 10_000_000
 """Bytes that have to be free for a film: ten times what an episode's takes."""
 
 
-class Encoder(Protocol):
-    """Writes one film. OSError or FilmError where it can't."""
-
-    def add(self, picture: Picture, count: int) -> None:
-        """Show a picture so many times, each for 1 / FPS seconds; all have one size."""
-
-    def finish(self) -> None:
-        """Write what is left: the file is whole."""
-
-    def stop(self) -> None:
-        """Write no more; does nothing after ``finish``."""
-
+Encoder = GifEncoder | Mp4Encoder
+"""Writes one film, of pictures of one size, each shown for 1 / FPS seconds. OSError or FilmError where it can't."""
 
 ENCODERS: dict[str, Callable[[Path, int], Encoder]] = {".mp4": Mp4Encoder, ".gif": GifEncoder}
 
