@@ -13,7 +13,7 @@ from mc_nested.learn.episode_log import EpisodeRow
 from mc_nested.learn.runs.run_config import RunConfig
 from mc_nested.learn.training import Training
 from mc_nested.report.game_time import expected
-from mc_nested.report.terminal_map import belief_rows
+from mc_nested.report.terminal import belief_rows
 from mc_nested.view.board import Board
 from mc_nested.view.status import MOST_SCORES, ArenaSeen, Learning, Standing
 from sim.worlds import Backend, where_words

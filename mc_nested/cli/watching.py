@@ -23,8 +23,7 @@ from mc_nested.live.live_game import LiveGame
 from mc_nested.live.vision.chat_region import blanked_share, without_chat
 from mc_nested.live.vision.game_screen import seen_gui_scale
 from mc_nested.report.arena_picture import ARENA_PX, SMALL_ARENA_PX
-from mc_nested.report.film import is_gif, open_film
-from mc_nested.report.filmed_game import FilmedGame, Window
+from mc_nested.report.film import FilmedGame, Window, is_gif, open_film
 from mc_nested.report.terminal import arena_view
 from mc_nested.view.status import ArenaSeen, Standing
 

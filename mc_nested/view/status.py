@@ -53,7 +53,7 @@ class ArenaSeen(BaseModel):
     """The arena from above: its size, the design, what stands, where the agents are.
 
     ``beliefs``, where the run learns its game: a text of a sign a cell for each row, the nearest row first, with the
-    signs of report/terminal_map.py. ``objective``: the cell that the agent is after, if it has one.
+    signs of report/terminal.py. ``objective``: the cell that the agent is after, if it has one.
     """
 
     model_config = ConfigDict(frozen=True)

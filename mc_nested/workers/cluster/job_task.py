@@ -22,9 +22,8 @@ from mc_nested.report.tensorboard import FOLDER
 from mc_nested.studies.job import Job
 from mc_nested.studies.outcome import OUTCOME
 from mc_nested.workers.cluster.versions import Versions, differences, own_versions
-from mc_nested.workers.executor import JobEnded, JobReport
+from mc_nested.workers.executor import JobEnded, JobReport, train_job
 from mc_nested.workers.processes import ONE_THREAD_EACH
-from mc_nested.workers.train_job import train_job
 
 if TYPE_CHECKING:
     from distributed import Worker
