@@ -8,8 +8,7 @@ from dataclasses import replace
 from math import ceil
 
 from mc_nested.arena.action import Cell
-from mc_nested.arena.builder import build
-from mc_nested.arena.rules import landing, moved
+from mc_nested.arena.builder import build, out_of_reach
 from mc_nested.arena.scenario import Scenario
 
 EDGE, CORNER, SCATTERED = "edge", "corner", "scattered"
@@ -71,12 +70,4 @@ def scenario_of_design(name: str, design: frozenset[Cell], like: Scenario) -> Sc
 
 def is_buildable(scenario: Scenario) -> bool:
     """Return whether the scripted builder builds exactly the design within the step limit."""
-    cell = scenario.start
-    placed: set[Cell] = set()
-    actions = build(scenario)
-    for action in actions:
-        cell = moved(cell, action, placed, scenario.size)
-        block = landing(cell, action, placed, scenario.size)
-        if block is not None:
-            placed.add(block)
-    return placed == scenario.design and len(actions) <= scenario.step_limit
+    return not out_of_reach(scenario) and len(build(scenario)) <= scenario.step_limit

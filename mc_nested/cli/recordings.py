@@ -10,7 +10,7 @@ import typer
 from rich.table import Table
 
 from calibration.report.privacy import names_here
-from mc_nested.cli.options import check_nothing_before
+from mc_nested.cli.options import is_alone
 from mc_nested.cli.output import JsonOption, Output, prints
 from mc_nested.errors import RecordingError
 from mc_nested.live.recording.cut import cut, trim
@@ -64,10 +64,8 @@ class RecordingList:
 @app.callback(invoke_without_command=True)
 def recordings(context: typer.Context, as_json: JsonOption = False) -> None:
     """List the recordings that are kept; verify, trim and cut them."""
-    if context.invoked_subcommand is None:
+    if is_alone(context):
         list_recordings(as_json)
-    else:
-        check_nothing_before(context)
 
 
 @app.command("list")

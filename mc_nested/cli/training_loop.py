@@ -12,7 +12,6 @@ from mc_nested.arena.game import PlayLog
 from mc_nested.arena.vector import ArenaVectorEnv
 from mc_nested.cli.games_at_play import GamesAtPlay, games_at_play
 from mc_nested.cli.interrupt import Interrupt, Stopped, catch_interrupts
-from mc_nested.cli.options import played_live
 from mc_nested.cli.output import Output
 from mc_nested.cli.progress import STOPPING, TrainingProgress
 from mc_nested.cli.training_end import draw_results, say_end
@@ -74,7 +73,7 @@ class OwnPlayer:
 
     def summary(self) -> dict[str, Any]:
         """Return what playing in a running game, or on the virtual client, took; nothing for the simulator."""
-        return played_live(self.log, self.failures)
+        return {"live": {**self.log.summary(), **self.failures.summary()}} if self.log else {}
 
 
 @contextmanager

@@ -132,10 +132,10 @@ class ViewApp(App[None]):
     def compose(self) -> ComposeResult:
         """Return the parts, from top to bottom."""
         yield Panel(panels.title, id="title")
-        yield Panel(panels.status_line, id="status")
+        yield Panel(panels.status_lines, id="status")
         with Container(id="body"):
             yield Panel(panels.arena, id="arena")
-            yield Panel(panels.side, id="side")
+            yield Panel(lambda shown, width, height: panels.side_panel(shown.status, width, height), id="side")
         yield Panel(self._moment, id="moment")
         yield Footer()
 
@@ -262,7 +262,7 @@ class ViewApp(App[None]):
 
     def _layout_for(self, shown: StatusShown) -> _Layout:
         width, height = self.size
-        lines = len(panels.status_lines(shown, width).split("\n"))
+        lines = len(panels.status_lines(shown, width, height).split("\n"))
         arena = shown.status.arena
         return _Layout(
             is_narrow=width < NARROW,

@@ -80,24 +80,37 @@ def train_jobs(
     for job, folder in jobs:
         executor.submit(job, folder).add_done_callback(done.put)
     waiting = len(jobs)
-    found = _Found()
+    failed = lost = ""
     stopping = False
     while waiting:
-        if not stopping and (is_stopped() or found.failed or found.lost):
+        if not stopping and (is_stopped() or failed or lost):
             stopping = True
             executor.stop()
         arrived = come_to(done, LOOK_EVERY_S)
         waiting -= len(arrived)
         for report in executor.reports():
             watch(report)
-        for future in arrived:
-            if ended := found.of(future, stopping):
-                watch(ended)
+        for end in map(_end_of, arrived):
+            if isinstance(end, JobEnded):
+                failed = failed or end.failed
+                if not (end.finished or end.failed or stopping):
+                    lost = lost or "a training process was asked to stop"
+                watch(end)
+            elif end:
+                lost = lost or str(end)
         watch(None)
-    if found.failed:
-        raise RunError(found.failed)
-    if found.lost and not is_stopped():  # stopping everything may stop the processes, too
-        raise RunError(found.lost)
+    if failed or (lost and not is_stopped()):  # stopping everything may stop the processes, too
+        raise RunError(failed or lost)
+
+
+def _end_of(future: Future[JobEnded]) -> JobEnded | RunError | None:
+    """Return how that future's job ended: why it was lost, None if it was cancelled. Any other error is a bug."""
+    try:
+        return future.result()
+    except CancelledError:
+        return None
+    except RunError as error:
+        return error
 
 
 Item = TypeVar("Item")
@@ -112,31 +125,6 @@ def come_to(queue: "SimpleQueue[Item]", timeout_s: float) -> list[Item]:
         first = queue.get(timeout=timeout_s)
         return [first, *(queue.get() for _ in range(queue.qsize()))]
     return []
-
-
-class _Found:
-    """Why the first job failed, and why the first was lost, in words; empty as long as none was."""
-
-    def __init__(self) -> None:
-        self.failed = ""
-        self.lost = ""
-
-    def of(self, future: Future[JobEnded], stopping: bool) -> JobEnded | None:
-        """Return how that future's job ended.
-
-        It is None if it was cancelled or lost. An error that isn't a RunError is a bug.
-        """
-        try:
-            ended = future.result()
-        except CancelledError:
-            return None
-        except RunError as error:
-            self.lost = self.lost or str(error)
-            return None
-        self.failed = self.failed or ended.failed
-        if not (ended.finished or ended.failed or stopping):
-            self.lost = self.lost or "a training process was asked to stop"
-        return ended
 
 
 PATIENCE_S = 10.0

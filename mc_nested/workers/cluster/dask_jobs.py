@@ -19,7 +19,6 @@ from mc_nested.errors import RunError
 from mc_nested.studies.job import Job
 from mc_nested.workers.cluster.job_task import (
     GAME,
-    Reported,
     Trained,
     cancel,
     in_words,
@@ -138,11 +137,11 @@ class DaskJobs:
         trained.add_done_callback(lambda done: self._land(job, folder, done, landed, tries - 1))
 
     def _hear(self, event: tuple[float, dict[str, Any]]) -> None:
-        said = Reported(**event[1])
+        report = JobReport(**event[1]["report"])
         with self._lock:
-            if not self._futures[said.job].done():
-                self._seen.begins(said.job, said.worker)
-                self._reported.put(JobReport(said.job, said.episodes, said.scores, said.updates))
+            if not self._futures[report.job].done():
+                self._seen.begins(report.job, event[1]["worker"])
+                self._reported.put(report)
 
     def _hear_of_workers(self, event: tuple[float, dict[str, Any]]) -> None:
         with self._lock:

@@ -99,16 +99,6 @@ class Trained(NamedTuple):
     events: Files
 
 
-class Reported(NamedTuple):
-    """A report, as it goes through the scheduler: plain data alone; and the address of the worker that trains."""
-
-    job: str
-    episodes: list[int]
-    scores: list[float | None]
-    updates: int
-    worker: str
-
-
 def packed(job: Job, folder: Path) -> bytes:
     """Return the job and the files of its folder, for ``train_on_worker``."""
     return pickle.dumps((job, files_below(folder)))
@@ -135,8 +125,8 @@ def train_on_worker(versions: Versions, library: str | None, package: bytes, top
     is_wanted = wanted_here(worker)
 
     def report(now: JobReport) -> bool:
-        said = Reported(now.job, list(now.episodes), list(now.scores), now.updates, worker.address)
-        worker.log_event(topic, said._asdict())
+        report = {"job": now.job, "episodes": list(now.episodes), "scores": list(now.scores), "updates": now.updates}
+        worker.log_event(topic, {"worker": worker.address, "report": report})  # plain data alone goes that way
         return topic not in _stopped and is_wanted()
 
     with _one_at_a_time, tempfile.TemporaryDirectory(prefix="mc-nested-", dir=worker.local_directory) as root:
