@@ -4,20 +4,19 @@ Drawn from what was confirmed: where the agent stands, and which blocks are know
 them as a simulated one has. In a plane, (x, y) is a cell; what holds for the whole arena fills a plane.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from typing import Any, Protocol
 
 import numpy as np
 from gymnasium.spaces import Box
 from gymnasium.vector import VectorEnv, VectorWrapper
 from gymnasium.vector.utils import batch_space
-from numpy.typing import NDArray
 
 from mc_nested.arena.env import BLOCKS_LEFT, X, Y
 from mc_nested.arena.game import Resumable
 from mc_nested.arena.scenario import Scenario
 from mc_nested.arena.vector import resumable_arenas
-from mc_nested.arrays import Arrays, Bools, Bytes, Float64s, Int64s
+from mc_nested.arrays import Bools, Bytes, Float64s, Int64s
 from mc_nested.errors import ScenarioError
 
 AGENT, PLACED, LEFT, START = range(4)
@@ -118,18 +117,8 @@ class PlanesVectorEnv(VectorWrapper):
 
     @property
     def resumable(self) -> Resumable | None:
-        """This view, if the arenas within can be resumed."""
-        return self if resumable_arenas(self.env) else None
-
-    def snapshot(self) -> Arrays:
-        """Return every arena as it stands, for ``restore``."""
-        within = resumable_arenas(self.env)
-        return within.snapshot() if within else {}
-
-    def restore(self, snapshot: Mapping[str, NDArray[Any]]) -> None:
-        """Put every arena back as it stood at ``snapshot``."""
-        if within := resumable_arenas(self.env):
-            within.restore(snapshot)
+        """The arenas within, if they can be resumed: a view has nothing to save."""
+        return resumable_arenas(self.env)
 
     def _seen(self, observations: Int64s) -> Bytes:
         planes = planes_of(observations, self._arenas.occupied(), self._starts, self._blocks)

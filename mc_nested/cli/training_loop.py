@@ -27,8 +27,8 @@ from mc_nested.live.action_log import FailureBudget
 from mc_nested.live.session import Opening
 from mc_nested.report.game_time import expected
 from mc_nested.report.tensorboard import FOLDER, TensorBoard, is_installed
+from mc_nested.view.files import remove_status
 from mc_nested.view.publisher import Publisher
-from mc_nested.view.status_files import remove_status
 from mc_nested.workers.cluster.address import SchedulerAddress
 from sim.grid import GridVectorEnv
 from sim.team_grid import team_arenas

@@ -172,6 +172,9 @@ class FilmedGame:
         arena_px: how large the arena is drawn.
     """
 
+    resumable = None
+    """A film shows an episode from its beginning."""
+
     def __init__(
         self, game: Game, scenario: Scenario, film: Film, window: Window | None = None, arena_px: int = ARENA_PX
     ) -> None:
@@ -189,11 +192,6 @@ class FilmedGame:
     def connection(self) -> object:
         """The filmed game's connection to its window; None if it has none."""
         return getattr(self._game, "connection", None)
-
-    @property
-    def resumable(self) -> None:
-        """None: a film shows an episode from its beginning."""
-        return None
 
     @property
     def log(self) -> PlayLog | None:

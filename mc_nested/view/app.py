@@ -19,8 +19,20 @@ from textual.widgets import Footer
 
 from mc_nested.errors import RunError
 from mc_nested.view import panels
-from mc_nested.view.requests import YesOrNo, ask_pause, ask_to_go_on, ask_to_stop, give_answer, renew_pause
-from mc_nested.view.status_files import FOLDER, NOW, Scrubber, history_of, is_published, status_now
+from mc_nested.view.files import (
+    FOLDER,
+    NOW,
+    Scrubber,
+    YesOrNo,
+    ask_pause,
+    ask_to_go_on,
+    ask_to_stop,
+    give_answer,
+    history_of,
+    is_published,
+    renew_pause,
+    status_now,
+)
 from mc_nested.view.words import Life, StatusShown, life_of
 
 Draw = Callable[[StatusShown, int, int], Text]

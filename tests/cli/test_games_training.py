@@ -22,8 +22,8 @@ from mc_nested.learn.preset import load_preset
 from mc_nested.learn.runs.checkpoint import FILE
 from mc_nested.workers.cluster.address import SchedulerAddress
 from mc_nested.workers.cluster.connection import connected
+from mc_nested.workers.cluster.job_task import own_versions
 from mc_nested.workers.cluster.keys import make_keys
-from mc_nested.workers.cluster.versions import own_versions
 from mc_nested.workers.games import dask_games
 from mc_nested.workers.games import mailbox as mailboxes
 from mc_nested.workers.games.dask_games import Answered, DaskGames, GameEvent

@@ -23,11 +23,11 @@ from mc_nested.workers.cluster.job_task import (
     cancel,
     in_words,
     landed_from,
+    own_versions,
     packed,
     stop_training,
     train_on_worker,
 )
-from mc_nested.workers.cluster.versions import own_versions
 from mc_nested.workers.executor import JobEnded, JobReport
 
 if TYPE_CHECKING:  # the cluster extra's

@@ -17,8 +17,7 @@ from mc_nested.errors import ClusterError
 from mc_nested.learn.agents import AGENT_SPECS, Agent
 from mc_nested.learn.games.episode import EpisodePlan, PlayedEpisode
 from mc_nested.learn.preset import Preset
-from mc_nested.workers.cluster.job_task import wanted_here
-from mc_nested.workers.cluster.versions import Versions, differences, own_versions
+from mc_nested.workers.cluster.job_task import Versions, differences, own_versions, wanted_here
 
 
 @dataclass(frozen=True)

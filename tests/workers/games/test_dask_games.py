@@ -18,7 +18,7 @@ from mc_nested.workers.cluster import connection
 from mc_nested.workers.cluster.address import SchedulerAddress
 from mc_nested.workers.cluster.connection import connected
 from mc_nested.workers.cluster.dask_jobs import DaskJobs, workers_that_train
-from mc_nested.workers.cluster.versions import own_versions
+from mc_nested.workers.cluster.job_task import own_versions
 from mc_nested.workers.games import dask_games, game_worker
 from mc_nested.workers.games import mailbox as mailboxes
 from mc_nested.workers.games.dask_games import Answered, DaskGames, GameEvent, Joined, Left, NameTaken, Unreachable
