@@ -15,7 +15,7 @@ from dataclasses import replace
 from itertools import groupby
 
 from mc_nested.arena.action import Action, Cell
-from mc_nested.arena.rules import PLACES, STEP, WITH_BLOCK, is_inside, moved
+from mc_nested.arena.rules import PLACES, WITH_BLOCK, moved
 from mc_nested.arena.scenario import Scenario
 from mc_nested.errors import ScenarioError
 
@@ -163,8 +163,4 @@ def _walk(start: Cell, goal: Cell) -> list[Action]:
 def _step_aside(cell: Cell, size: int) -> list[Action]:
     """Return the moves away and back: the agent is in the right cell, but a block is only placed after a move."""
     there_and_back = ((Action.B, Action.F), (Action.L, Action.R), (Action.R, Action.L))
-    return next(
-        [there, back]
-        for there, back in there_and_back
-        if is_inside((cell[0] + STEP[there][0], cell[1] + STEP[there][1]), size)
-    )
+    return next([there, back] for there, back in there_and_back if moved(cell, there, (), size) != cell)

@@ -5,7 +5,7 @@ them as a simulated one has. In a plane, (x, y) is a cell; what holds for the wh
 """
 
 from collections.abc import Sequence
-from typing import Any, Protocol
+from typing import Any
 
 import numpy as np
 from gymnasium.spaces import Box
@@ -27,13 +27,6 @@ PLANES = 4
 
 FULL = 255
 """A cell where something is, or a whole share."""
-
-
-class _Arenas(Protocol):
-    """Arenas that say where blocks stand."""
-
-    def occupied(self) -> Bools:
-        """Return the cells where a block landed since each arena's last reset, (runs, size, size)."""
 
 
 def planes_of(observations: Int64s, occupied: Bools, starts: Int64s, blocks: Int64s) -> Bytes:
@@ -94,7 +87,6 @@ class PlanesVectorEnv(VectorWrapper):
     def __init__(self, env: VectorEnv[Int64s, Int64s, Any], scenarios: Sequence[Scenario]) -> None:
         super().__init__(env)
         size = common_size(scenarios)
-        self._arenas: _Arenas = env  # type: ignore[assignment]  # gymnasium's wrappers hand its methods on
         self._starts = np.array([scenario.start for scenario in scenarios])
         self._blocks = np.array([scenario.blocks for scenario in scenarios])
         highest = env.single_observation_space.high  # type: ignore[attr-defined]  # a Box (arena/env.py)
@@ -121,7 +113,8 @@ class PlanesVectorEnv(VectorWrapper):
         return resumable_arenas(self.env)
 
     def _seen(self, observations: Int64s) -> Bytes:
-        planes = planes_of(observations, self._arenas.occupied(), self._starts, self._blocks)
+        occupied = self.env.occupied()  # type: ignore[attr-defined]  # gymnasium's wrappers hand its methods on
+        planes = planes_of(observations, occupied, self._starts, self._blocks)
         if self._materials is None:
             return planes
         return with_material(planes, shares(observations[:, -1], self._materials))

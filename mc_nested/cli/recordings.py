@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Annotated
 
 import typer
-from rich.table import Table
+from rich.table import Column, Table
 
 from calibration.report.privacy import names_here
 from mc_nested.cli.options import is_alone
@@ -73,9 +73,8 @@ def recordings(context: typer.Context, as_json: JsonOption = False) -> None:
 def list_recordings(as_json: JsonOption = False) -> None:
     """List the recordings that are kept, the newest last."""
     found = [_found(path) for path in kept_recordings()]
-    table = Table(show_edge=False, pad_edge=False)
-    for name in ("recording", "of", "began", "lasts", "actions", "size", "state"):
-        table.add_column(name, overflow="fold")
+    heads = ("recording", "of", "began", "lasts", "actions", "size", "state")
+    table = Table(*(Column(head, overflow="fold") for head in heads), show_edge=False, pad_edge=False)
     for each in found:
         table.add_row(each.recording.name, *_row(each), "; ".join(each.damage) or WHOLE)
     Output(as_json=as_json).result(

@@ -93,24 +93,20 @@ def own_player(folder: RunFolder, opening: Opening, publisher: Publisher) -> Ite
         yield OwnPlayer(trainer, env, log, lambda: publisher.was_paused_lately)
 
 
-EpisodePlayer = OwnPlayer | GamesAtPlay
-"""Who plays a training's episodes: this computer, or games elsewhere."""
-
-
 @dataclass(frozen=True)
 class TrainingLoop:
     """One training while it runs.
 
     Args:
         folder: where it is saved.
-        player: who plays its episodes.
+        player: who plays its episodes: this computer, or games elsewhere.
         publisher: shows it to viewers, who may pause it.
         interrupt: whether somebody asked to stop.
         began: when, on time.monotonic()'s clock.
     """
 
     folder: RunFolder
-    player: EpisodePlayer
+    player: OwnPlayer | GamesAtPlay
     publisher: Publisher
     interrupt: Interrupt
     began: float

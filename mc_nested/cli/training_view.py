@@ -92,12 +92,11 @@ class TrainingView:
     def _arena(self) -> ArenaSeen:
         builders = self._trainer.agent.builders
         places = range(self._trials * builders)
-        return ArenaSeen.of(self._scenario).model_copy(
-            update={
-                "stands": _counted(cell for first in places[::builders] for cell in self._arenas.placed(first)),
-                "agents": _counted(self._arenas.cell(place) for place in places),
-                "beliefs": self._beliefs,
-            }
+        return ArenaSeen.of(
+            self._scenario,
+            stands=_counted(cell for first in places[::builders] for cell in self._arenas.placed(first)),
+            agents=_counted(self._arenas.cell(place) for place in places),
+            beliefs=self._beliefs,
         )
 
     def _learning(self) -> Learning:

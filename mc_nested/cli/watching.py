@@ -47,9 +47,7 @@ Played = TypeVar("Played")
 def arena_seen(env: ArenaEnv, objective: Cell | None) -> ArenaSeen:
     """Return an Env's arena for the view, and the cell that the agent is after in it, if it has one."""
     stands = tuple(Standing(x, y, 1) for x, y in sorted(env.placed))
-    return ArenaSeen.of(env.scenario).model_copy(
-        update={"stands": stands, "agents": (Standing(*env.cell, 1),), "objective": objective}
-    )
+    return ArenaSeen.of(env.scenario, stands=stands, agents=(Standing(*env.cell, 1),), objective=objective)
 
 
 @contextmanager

@@ -13,6 +13,7 @@ import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import TypeVar
 
 from pydantic import BaseModel, ConfigDict, ValidationError
 from rich.text import Text
@@ -34,7 +35,10 @@ KEEP_EVERY_S = 0.3
 """Seconds between two statuses of a history, while it is short."""
 
 REPLACED_WITHIN_S = 1.0
-"""Longer than it takes to replace a small file: who may not read it for as long may not read it at all."""
+"""Longer than it takes to read or to replace a small file: who may not for as long may not at all."""
+
+
+Done = TypeVar("Done")
 
 
 class History:
@@ -102,7 +106,7 @@ def status_now(folder: Path) -> Status:
     """Return the status of a run; raise RunError if there is none, or it can't be read."""
     path = folder / FOLDER / NOW
     try:
-        return _status_of(_read(path), path)
+        return _status_of(_patiently(path.read_bytes), path)
     except PermissionError as error:
         raise RunError(f"{path}: can't be read, {error.strerror}: let this account read it") from error
     except (FileNotFoundError, NotADirectoryError) as error:
@@ -132,14 +136,14 @@ def remove_status(folder: Path) -> None:
         path.rmdir()
 
 
-def _read(path: Path) -> bytes:
-    """Read all of a file that another process replaces again and again: Windows refuses to open it in that moment."""
+def _patiently(do: Callable[[], Done]) -> Done:
+    """Do what Windows refuses in the moments in which another process reads the file, or replaces it."""
     deadline = time.monotonic() + REPLACED_WITHIN_S
     while time.monotonic() < deadline:
         with contextlib.suppress(PermissionError):
-            return path.read_bytes()
+            return do()
         time.sleep(0.01)
-    return path.read_bytes()
+    return do()
 
 
 def _lines(path: Path) -> list[str]:
@@ -199,10 +203,6 @@ RENEWED_S = 5.0
 """Seconds after which a pause that nobody renewed is over: a view renews it three times a second."""
 
 
-TRIES, AGAIN_S = 20, 0.03
-"""An answer is written again, so many seconds later, where it can't be replaced."""
-
-
 class YesOrNo(BaseModel):
     """Yes or no to the question of that number alone."""
 
@@ -239,15 +239,12 @@ def ask_to_stop(folder: Path) -> None:
 
 def give_answer(folder: Path, answer: YesOrNo) -> None:
     """Answer the run's question. Raise OSError if nothing can be written there."""
-    for tries_left in reversed(range(TRIES)):
-        try:
-            with atomic_write(folder / FOLDER / ANSWER) as path:
-                path.write_text(answer.model_dump_json(), encoding="utf-8")
-            return
-        except PermissionError:  # noqa: PERF203 - Windows, while the run reads it
-            if not tries_left:
-                raise
-            time.sleep(AGAIN_S)
+
+    def write() -> None:
+        with atomic_write(folder / FOLDER / ANSWER) as path:
+            path.write_text(answer.model_dump_json(), encoding="utf-8")
+
+    _patiently(write)
 
 
 class Requests:

@@ -208,11 +208,6 @@ class ClusterWorkers:
         """How many workers there are."""
         return len(self._workers)
 
-    @property
-    def trained(self) -> int:
-        """How many jobs they train now."""
-        return len(self._trained_by)
-
     def trains(self, job: str) -> bool:
         """Return whether one of them trains the job now."""
         return job in self._trained_by
@@ -241,8 +236,8 @@ class ClusterWorkers:
 
     def in_words(self, unfinished: int) -> str:
         """Say in a line how many workers there are, how many ``unfinished`` jobs train or wait, and what was lost."""
-        waiting = unfinished - self.trained
-        words = f"{counted(self.count, 'worker')}, {counted(self.trained, 'job')} training, {waiting} waiting"
+        training = len(self._trained_by)
+        words = f"{counted(self.count, 'worker')}, {counted(training, 'job')} training, {unfinished - training} waiting"
         if self._lost_workers:
             words += f"; lost {counted(self._lost_workers, 'worker')}, {counted(self._lost_jobs, 'job')} begun again"
         return words
