@@ -137,10 +137,11 @@ class DaskJobs:
         trained.add_done_callback(lambda done: self._land(job, folder, done, landed, tries - 1))
 
     def _hear(self, event: tuple[float, dict[str, Any]]) -> None:
-        report = JobReport(**event[1]["report"])
+        said = dict(event[1])
+        worker, report = said.pop("worker"), JobReport(**said)
         with self._lock:
             if not self._futures[report.job].done():
-                self._seen.begins(report.job, event[1]["worker"])
+                self._seen.begins(report.job, worker)
                 self._reported.put(report)
 
     def _hear_of_workers(self, event: tuple[float, dict[str, Any]]) -> None:

@@ -180,8 +180,8 @@ def train_on_worker(versions: Versions, library: str | None, package: bytes, top
     is_wanted = wanted_here(worker)
 
     def report(now: JobReport) -> bool:
-        report = {"job": now.job, "episodes": list(now.episodes), "scores": list(now.scores), "updates": now.updates}
-        worker.log_event(topic, {"worker": worker.address, "report": report})  # plain data alone goes that way
+        plain = {**vars(now), "episodes": list(now.episodes), "scores": list(now.scores), "worker": worker.address}
+        worker.log_event(topic, plain)
         return topic not in _stopped and is_wanted()
 
     with _one_at_a_time, tempfile.TemporaryDirectory(prefix="mc-nested-", dir=worker.local_directory) as root:
