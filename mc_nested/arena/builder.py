@@ -15,7 +15,7 @@ from dataclasses import replace
 from itertools import groupby
 
 from mc_nested.arena.action import Action, Cell
-from mc_nested.arena.rules import PLACES, STEP, WITH_BLOCK, is_inside, moved
+from mc_nested.arena.rules import PLACES, WITH_BLOCK, moved
 from mc_nested.arena.scenario import Scenario
 from mc_nested.errors import ScenarioError
 
@@ -37,24 +37,6 @@ def within_reach(scenario: Scenario) -> Scenario:
 def can_be_built(scenario: Scenario) -> bool:
     """Return whether the parts can be built in their order: every cell can still be reached when its turn comes."""
     return _order_of_parts(scenario) is not None
-
-
-def build_in_parts(scenario: Scenario) -> list[Action]:
-    """Return the actions that place every block, part after part.
-
-    Raise ScenarioError if the parts can't be built in their order.
-    """
-    order = _order_of_parts(scenario)
-    if order is None:
-        raise ScenarioError(f"scenario {scenario.name}: its parts can't be built in their order: change it")
-    actions: list[Action] = []
-    placed: set[Cell] = set()
-    cell = scenario.start
-    for target in order:
-        cell, path = _way(cell, _before(target), placed, scenario.size)
-        actions += [*path[:-1], WITH_BLOCK[path[-1]]]
-        placed.add(target)
-    return actions
 
 
 def _order_of_parts(scenario: Scenario) -> list[Cell] | None:
@@ -111,8 +93,8 @@ def _spread(reached: set[Cell], cell: Cell, placed: Collection[Cell], size: int)
                 waiting.append(there)
 
 
-def _way(start: Cell, goal: Cell, placed: Collection[Cell], size: int) -> tuple[Cell, list[Action]]:
-    """Return the goal, and the fewest moves that end there, one at least: a block is only placed after a move."""
+def _way(start: Cell, goal: Cell, placed: Collection[Cell], size: int) -> list[Action]:
+    """Return the fewest moves that end there, one at least: a block is only placed after a move."""
     waiting: deque[tuple[Cell, list[Action]]] = deque([(start, [])])
     seen: set[Cell] = set()
     while waiting:
@@ -120,7 +102,7 @@ def _way(start: Cell, goal: Cell, placed: Collection[Cell], size: int) -> tuple[
         for action in WITH_BLOCK:
             there = moved(here, action, placed, size)
             if there == goal:
-                return there, [*path, action]
+                return [*path, action]
             if there not in seen:
                 seen.add(there)
                 waiting.append((there, [*path, action]))
@@ -132,14 +114,20 @@ def build(scenario: Scenario) -> list[Action]:
 
     ScenarioError if the parts can't be built in their order.
     """
-    if scenario.parts:
-        return build_in_parts(scenario)
+    order = _order_of_parts(scenario) if scenario.parts else _order(scenario)
+    if order is None:
+        raise ScenarioError(f"scenario {scenario.name}: its parts can't be built in their order: change it")
     actions: list[Action] = []
+    placed: set[Cell] = set()
     cell = scenario.start
-    for target in _order(scenario):
-        stand = (target[0], target[1] - 1)
-        path = _walk(cell, stand) or _step_aside(cell, scenario.size)
+    for target in order:
+        stand = _before(target)
+        if scenario.parts:
+            path = _way(cell, stand, placed, scenario.size)
+        else:  # nothing is ever in the way
+            path = _walk(cell, stand) or _step_aside(cell, scenario.size)
         actions += [*path[:-1], WITH_BLOCK[path[-1]]]
+        placed.add(target)
         cell = stand
     return actions
 
@@ -175,8 +163,4 @@ def _walk(start: Cell, goal: Cell) -> list[Action]:
 def _step_aside(cell: Cell, size: int) -> list[Action]:
     """Return the moves away and back: the agent is in the right cell, but a block is only placed after a move."""
     there_and_back = ((Action.B, Action.F), (Action.L, Action.R), (Action.R, Action.L))
-    return next(
-        [there, back]
-        for there, back in there_and_back
-        if is_inside((cell[0] + STEP[there][0], cell[1] + STEP[there][1]), size)
-    )
+    return next([there, back] for there, back in there_and_back if moved(cell, there, (), size) != cell)

@@ -4,20 +4,19 @@ Drawn from what was confirmed: where the agent stands, and which blocks are know
 them as a simulated one has. In a plane, (x, y) is a cell; what holds for the whole arena fills a plane.
 """
 
-from collections.abc import Mapping, Sequence
-from typing import Any, Protocol
+from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 from gymnasium.spaces import Box
 from gymnasium.vector import VectorEnv, VectorWrapper
 from gymnasium.vector.utils import batch_space
-from numpy.typing import NDArray
 
 from mc_nested.arena.env import BLOCKS_LEFT, X, Y
 from mc_nested.arena.game import Resumable
 from mc_nested.arena.scenario import Scenario
 from mc_nested.arena.vector import resumable_arenas
-from mc_nested.arrays import Arrays, Bools, Bytes, Float64s, Int64s
+from mc_nested.arrays import Bools, Bytes, Float64s, Int64s
 from mc_nested.errors import ScenarioError
 
 AGENT, PLACED, LEFT, START = range(4)
@@ -28,13 +27,6 @@ PLANES = 4
 
 FULL = 255
 """A cell where something is, or a whole share."""
-
-
-class _Arenas(Protocol):
-    """Arenas that say where blocks stand."""
-
-    def occupied(self) -> Bools:
-        """Return the cells where a block landed since each arena's last reset, (runs, size, size)."""
 
 
 def planes_of(observations: Int64s, occupied: Bools, starts: Int64s, blocks: Int64s) -> Bytes:
@@ -95,7 +87,6 @@ class PlanesVectorEnv(VectorWrapper):
     def __init__(self, env: VectorEnv[Int64s, Int64s, Any], scenarios: Sequence[Scenario]) -> None:
         super().__init__(env)
         size = common_size(scenarios)
-        self._arenas: _Arenas = env  # type: ignore[assignment]  # gymnasium's wrappers hand its methods on
         self._starts = np.array([scenario.start for scenario in scenarios])
         self._blocks = np.array([scenario.blocks for scenario in scenarios])
         highest = env.single_observation_space.high  # type: ignore[attr-defined]  # a Box (arena/env.py)
@@ -118,21 +109,12 @@ class PlanesVectorEnv(VectorWrapper):
 
     @property
     def resumable(self) -> Resumable | None:
-        """This view, if the arenas within can be resumed."""
-        return self if resumable_arenas(self.env) else None
-
-    def snapshot(self) -> Arrays:
-        """Return every arena as it stands, for ``restore``."""
-        within = resumable_arenas(self.env)
-        return within.snapshot() if within else {}
-
-    def restore(self, snapshot: Mapping[str, NDArray[Any]]) -> None:
-        """Put every arena back as it stood at ``snapshot``."""
-        if within := resumable_arenas(self.env):
-            within.restore(snapshot)
+        """The arenas within, if they can be resumed: a view has nothing to save."""
+        return resumable_arenas(self.env)
 
     def _seen(self, observations: Int64s) -> Bytes:
-        planes = planes_of(observations, self._arenas.occupied(), self._starts, self._blocks)
+        occupied = self.env.occupied()  # type: ignore[attr-defined]  # gymnasium's wrappers hand its methods on
+        planes = planes_of(observations, occupied, self._starts, self._blocks)
         if self._materials is None:
             return planes
         return with_material(planes, shares(observations[:, -1], self._materials))

@@ -177,12 +177,10 @@ class SingleAgentVectorEnv(VectorWrapper):
 
     def _of_first_builder(self, actions: Int64s) -> Int64s:
         """Return, in each row, what the first builder of its arena does."""
-        return actions if self._builders == 1 else np.repeat(actions[:: self._builders], self._builders)
+        return np.repeat(actions[:: self._builders], self._builders)
 
     def _of_all_builders(self, rewards: Float64s) -> Float64s:
         """Return, in each row, the sum over the builders of its arena."""
-        if self._builders == 1:
-            return rewards
         return np.repeat(rewards.reshape(-1, self._builders).sum(axis=1), self._builders)
 
     def _seen(self) -> Int64s:

@@ -17,7 +17,7 @@ from calibration.doctor.examination import Examination, examine
 from calibration.doctor.repair import repair
 from calibration.installation.folders import System
 from calibration.report.privacy import names_here
-from mc_nested.cli.options import DEFAULT_PROFILE, ProfileOption, check_nothing_before
+from mc_nested.cli.options import DEFAULT_PROFILE, ProfileOption, is_alone
 from mc_nested.cli.output import JsonOption, Output, prints
 from mc_nested.cli.recordings import last_recording, recording_path
 from mc_nested.errors import FontError, PictureError, RecordingError
@@ -59,8 +59,7 @@ def doctor(
     ] = False,
 ) -> None:
     """Look at this computer, the game's window and its options: each row with the one thing to do."""
-    if context.invoked_subcommand is not None:
-        check_nothing_before(context)
+    if not is_alone(context):
         return
     found = _examined(profile)
     if fix and repair(found, partial(typer.echo, err=True)):

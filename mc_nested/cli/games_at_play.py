@@ -19,10 +19,10 @@ from mc_nested.learn.games.episode import PlayedEpisode
 from mc_nested.learn.games.games_trainer import GamesTrainer
 from mc_nested.learn.runs.run_folder import RunFolder
 from mc_nested.workers.cluster.address import SchedulerAddress, scheduler_address
-from mc_nested.workers.cluster.cluster_workers import counted
 from mc_nested.workers.cluster.connection import connected
+from mc_nested.workers.cluster.dask_jobs import counted
 from mc_nested.workers.games.dask_games import Answered, DaskGames, GameEvent, Joined, NameTaken, Unreachable
-from mc_nested.workers.games.messages import GameAnswer, GameSetup
+from mc_nested.workers.games.mailbox import GameAnswer, GameSetup
 from sim.worlds import Backend
 
 if TYPE_CHECKING:  # the cluster extra's
@@ -72,7 +72,7 @@ class GamesAtPlay:
     def __init__(self, training: GamesTrainer, games: DaskGames, scenario: Scenario) -> None:
         self.training = training
         choices = 0 if training.agent.main else len(scenario.materials)
-        self.arenas = LastEpisode(self, scenario, choices)
+        self.arenas = LastEpisode(scenario, choices)
         self._games = games
         self._records: dict[str, GameRecord] = {}
         self._refused: dict[str, str] = {}
@@ -80,7 +80,6 @@ class GamesAtPlay:
         self._is_over = False
         self._lost = 0
         self._problems: list[str] = []
-        self.last: PlayedEpisode | None = None
 
     def play_on(self) -> list[str]:
         """Deal with what has happened, or wait for a moment; return lines about who came and what was lost.
@@ -142,7 +141,7 @@ class GamesAtPlay:
         said = f"{game}: {answer.problem}{self._lose(record, answer.problem)}" if answer.problem else ""
         self._has_played = self._has_played or not answer.problem
         if answer.episode and self.training.take(answer.episode):
-            self.last = answer.episode
+            self.arenas.episode = answer.episode if answer.episode.observations.ndim == 2 else None
         record.playing = None
         if not (self._is_over or self.training.finished or answer.leaves):
             # After a mishap it says first when it is ready again: its player may be away.
@@ -223,33 +222,30 @@ def _alone(
             lock.release()
 
 
+@dataclass
 class LastEpisode:
     """The arena as the episode that came back last left it, for a view; as it begins where states are no numbers.
 
     Args:
-        play: the games.
         scenario: what is built.
         choices: how many of the agent's actions choose a material, before those of the arena.
+        episode: the one that came back last, if its states are numbers.
     """
 
-    def __init__(self, play: GamesAtPlay, scenario: Scenario, choices: int) -> None:
-        self._play = play
-        self._scenario = scenario
-        self._choices = choices
+    scenario: Scenario
+    choices: int
+    episode: PlayedEpisode | None = None
 
     def cell(self, _run: int) -> Cell:
         """Return where the agent stood at the episode's end."""
-        last = self._shown
-        return (int(last.observations[-1, 0]), int(last.observations[-1, 1])) if last else self._scenario.start
+        if self.episode is None:
+            return self.scenario.start
+        x, y = self.episode.observations[-1, :2].tolist()
+        return x, y
 
     def placed(self, _run: int) -> frozenset[Cell]:
         """Return where the episode's blocks landed."""
-        return blocks_of(self._shown, self._scenario.size, self._choices) if self._shown else frozenset()
-
-    @property
-    def _shown(self) -> PlayedEpisode | None:
-        last = self._play.last
-        return last if last and last.observations.ndim == 2 else None
+        return blocks_of(self.episode, self.scenario.size, self.choices) if self.episode else frozenset()
 
 
 def blocks_of(episode: PlayedEpisode, size: int, choices: int) -> frozenset[Cell]:

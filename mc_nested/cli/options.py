@@ -3,18 +3,16 @@
 from collections.abc import Sequence
 from functools import partial
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated
 
 import typer
 
-from mc_nested.arena.game import PlayLog
 from mc_nested.arena.scenario import DEFAULT_SIZE, Scenario
 from mc_nested.arena.scenario_file import shipped_scenarios
 from mc_nested.cli.completion import complete_of, complete_profiles, complete_runs
 from mc_nested.design_files.load import Loaded, load_any_scenario
 from mc_nested.errors import UserError
 from mc_nested.learn.preset import shipped_presets
-from mc_nested.live.action_log import FailureBudget
 from mc_nested.live.profile.arena import size_for
 from mc_nested.live.session import Opening
 from sim.worlds import Backend
@@ -128,14 +126,20 @@ def is_given(context: typer.Context, name: str) -> bool:
     return source is not None and source.name == "COMMANDLINE"
 
 
-def check_nothing_before(context: typer.Context) -> None:
-    """Raise UserError if an option stands before the verb of a verb, where it would be ignored."""
+def is_alone(context: typer.Context) -> bool:
+    """Return whether a verb is alone, with no verb of its own behind it.
+
+    Raise UserError if an option stands before such a one, where it would be ignored.
+    """
+    if context.invoked_subcommand is None:
+        return True
     verb = f"{context.command_path} {context.invoked_subcommand}"
     below = getattr(context.command, "commands", {})[context.invoked_subcommand]
     for option in given(context):
         if any(option in each.opts for each in below.params):
             raise UserError(f"write {option} at the end: {verb} {option}")
         raise UserError(f"{verb} takes no {option}: leave it out")
+    return False
 
 
 def opening_of(
@@ -147,14 +151,6 @@ def opening_of(
     """
     say = partial(typer.echo, err=True)
     return Opening(profile, say, what, record, is_server_allowed=server_allowed, evidence=evidence)
-
-
-def played_live(log: PlayLog | None, failure_budget: FailureBudget) -> dict[str, Any]:
-    """Return what playing in a running game, or on the virtual client, took, for a summary.
-
-    Return nothing for the simulator.
-    """
-    return {"live": {**log.summary(), **failure_budget.summary()}} if log else {}
 
 
 def named_scenario(name: str, layer: int | None, *, must_choose: bool = False, must_reach: bool = True) -> Scenario:

@@ -20,7 +20,7 @@ from calibration.profiles import (
     rename_profile,
 )
 from mc_nested.cli.completion import complete_profiles
-from mc_nested.cli.options import check_nothing_before
+from mc_nested.cli.options import is_alone
 from mc_nested.cli.output import FittingTable, JsonOption, Output, facts_table, prints
 from mc_nested.errors import DesktopError
 from mc_nested.live.desktop.display import WindowDisplay
@@ -52,10 +52,8 @@ class ProfileShown(ProfileFacts):
 @app.callback(invoke_without_command=True)
 def profiles(context: typer.Context, as_json: JsonOption = False) -> None:
     """List your profiles, look at one, rename it, delete it; alone it lists them."""
-    if context.invoked_subcommand is None:
+    if is_alone(context):
         list_profiles(as_json)
-    else:
-        check_nothing_before(context)
 
 
 @app.command("list")

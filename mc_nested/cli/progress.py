@@ -19,7 +19,7 @@ from mc_nested.arena.scenario import Scenario
 from mc_nested.cli.output import print_line
 from mc_nested.learn.imagination.known_arena import Knowing
 from mc_nested.learn.training import Training
-from mc_nested.report.terminal_map import map_view
+from mc_nested.report.terminal import map_view
 
 REFRESH_S = 0.2
 LINE_EVERY_S = 30.0

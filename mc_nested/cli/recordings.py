@@ -7,10 +7,10 @@ from pathlib import Path
 from typing import Annotated
 
 import typer
-from rich.table import Table
+from rich.table import Column, Table
 
 from calibration.report.privacy import names_here
-from mc_nested.cli.options import check_nothing_before
+from mc_nested.cli.options import is_alone
 from mc_nested.cli.output import JsonOption, Output, prints
 from mc_nested.errors import RecordingError
 from mc_nested.live.recording.cut import cut, trim
@@ -64,10 +64,8 @@ class RecordingList:
 @app.callback(invoke_without_command=True)
 def recordings(context: typer.Context, as_json: JsonOption = False) -> None:
     """List the recordings that are kept; verify, trim and cut them."""
-    if context.invoked_subcommand is None:
+    if is_alone(context):
         list_recordings(as_json)
-    else:
-        check_nothing_before(context)
 
 
 @app.command("list")
@@ -75,9 +73,8 @@ def recordings(context: typer.Context, as_json: JsonOption = False) -> None:
 def list_recordings(as_json: JsonOption = False) -> None:
     """List the recordings that are kept, the newest last."""
     found = [_found(path) for path in kept_recordings()]
-    table = Table(show_edge=False, pad_edge=False)
-    for name in ("recording", "of", "began", "lasts", "actions", "size", "state"):
-        table.add_column(name, overflow="fold")
+    heads = ("recording", "of", "began", "lasts", "actions", "size", "state")
+    table = Table(*(Column(head, overflow="fold") for head in heads), show_edge=False, pad_edge=False)
     for each in found:
         table.add_row(each.recording.name, *_row(each), "; ".join(each.damage) or WHOLE)
     Output(as_json=as_json).result(

@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 from rich.console import RenderableType
-from rich.table import Table
+from rich.table import Column, Table
 
 from calibration.font.sources import font_of_recording
 from calibration.installation.folders import System
@@ -71,9 +71,8 @@ def replay(
 
 def _lines(seen: Replayed, font: Path, pictures: Path | None) -> Iterator[RenderableType]:
     if seen.differences:
-        table = Table(show_edge=False, pad_edge=False)
-        for name in ("action", "what", "then", "now"):
-            table.add_column(name, overflow="fold")
+        heads = (Column(head, overflow="fold") for head in ("action", "what", "then", "now"))
+        table = Table(*heads, show_edge=False, pad_edge=False)
         for each in seen.differences[:MOST_ROWS]:
             table.add_row(str(each.action), each.kind, each.then, each.now)
         yield table

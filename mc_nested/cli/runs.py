@@ -12,7 +12,7 @@ from rich.text import Text
 
 from mc_nested.arena.env import ArenaEnv
 from mc_nested.cli.completion import RUNS, complete_runs
-from mc_nested.cli.options import RunArgument, check_nothing_before
+from mc_nested.cli.options import RunArgument, is_alone
 from mc_nested.cli.output import FittingTable, JsonOption, Output, facts_table, prints
 from mc_nested.errors import RunError
 from mc_nested.learn.agents import Agent
@@ -66,10 +66,8 @@ class EvaluationResult:
 @app.callback(invoke_without_command=True)
 def runs(context: typer.Context, as_json: JsonOption = False) -> None:
     """List your runs, look at one, evaluate it, rename it, delete it; alone it lists those in runs/."""
-    if context.invoked_subcommand is None:
+    if is_alone(context):
         list_runs(RUNS, as_json)
-    else:
-        check_nothing_before(context)
 
 
 @app.command("list")

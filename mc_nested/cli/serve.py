@@ -22,8 +22,7 @@ from mc_nested.workers.cluster.connection import check_installed
 from mc_nested.workers.cluster.keys import AUTHORITY_KEY, make_keys
 from mc_nested.workers.games.game_server import GameServer, OpenGame
 from mc_nested.workers.games.game_worker import GameWorker
-from mc_nested.workers.games.mailbox import process_mailbox
-from mc_nested.workers.games.messages import GameSetup
+from mc_nested.workers.games.mailbox import GameSetup, process_mailbox
 from sim.worlds import Backend, as_shown, open_arenas
 
 

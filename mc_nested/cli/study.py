@@ -17,7 +17,7 @@ from rich.table import Column
 from rich.table import Table as RichTable
 from rich.text import Text
 
-from mc_nested.arena.corpus_file import MOST_DESIGNS
+from mc_nested.arena.design import MOST_DESIGNS
 from mc_nested.arena.scenario_file import paper_scenarios
 from mc_nested.cli.cluster_options import ClusterOption, InsecureOption, KeysOption, cluster_of
 from mc_nested.cli.completion import complete_of, complete_runs

@@ -27,8 +27,8 @@ from mc_nested.cli.options import (
     RecordOption,
     ServerOption,
     StatesOption,
-    check_nothing_before,
     given,
+    is_alone,
     is_given,
     named_scenario,
     opening_of,
@@ -159,8 +159,7 @@ def train(  # noqa: PLR0913 - a Typer verb: a parameter for each option
     as_json: JsonOption = False,
 ) -> None:
     """Train an agent; Ctrl+C saves, and --resume goes on from there."""
-    if context.invoked_subcommand is not None:
-        check_nothing_before(context)
+    if not is_alone(context):
         return
     served = games_of(games, keys, insecure, given(context))
     opening = opening_of(profile, "train", record, server_allowed=server_allowed)

@@ -8,8 +8,6 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated, Any
 
-import cv2
-
 from mc_nested.arena.cooperative.team_env import draw_team_picture
 from mc_nested.arena.scenario_file import ScenarioTable, load_scenario, shipped_scenarios, table_of
 from mc_nested.atomic_file import atomic_write
@@ -21,9 +19,9 @@ from mc_nested.learn.preset import MOST, load_preset, shipped_presets
 from mc_nested.learn.runs.run_config import RunConfig
 from mc_nested.learn.runs.run_folder import RunFolder
 from mc_nested.learn.training import Training
+from mc_nested.live.menus.click_points import picture_bytes
 from mc_nested.report.arena_map import draw_map
-from mc_nested.report.curve import align_trials, draw_curve
-from mc_nested.report.played_curve import draw_played_curve, played_by
+from mc_nested.report.curve import align_trials, draw_curve, draw_played_curve, played_by
 from sim.team_grid import team_arenas
 
 CURVE, MAP, PICTURE = "curve.png", "map.png", "team.png"
@@ -62,7 +60,7 @@ def _draw_team(folder: RunFolder, trial: int) -> None:
     cells = [arena.cell(builder) for builder in range(arena.team.builders)]
     picture = draw_team_picture(arena.team, cells, arena.placed(0), PICTURE_CELL_PX)
     with folder.writing(), atomic_write(folder.path / PICTURE) as path:
-        path.write_bytes(cv2.imencode(".png", picture[:, :, ::-1])[1].tobytes())
+        path.write_bytes(picture_bytes(picture[:, :, ::-1]))
 
 
 @dataclass(frozen=True)

@@ -1,61 +1,96 @@
 """A training as the command line runs it: begun or resumed, played and saved until its end, drawn and printed."""
 
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import Any, Protocol
+from typing import Any
 
-from mc_nested.cli.games_at_play import games_at_play
+from mc_nested.arena.cooperative.team_env import TeamVectorEnv
+from mc_nested.arena.game import PlayLog
+from mc_nested.arena.vector import ArenaVectorEnv
+from mc_nested.cli.games_at_play import GamesAtPlay, games_at_play
 from mc_nested.cli.interrupt import Interrupt, Stopped, catch_interrupts
 from mc_nested.cli.output import Output
-from mc_nested.cli.own_player import own_player
 from mc_nested.cli.progress import STOPPING, TrainingProgress
 from mc_nested.cli.training_end import draw_results, say_end
-from mc_nested.cli.training_view import Arenas, TrainingView
+from mc_nested.cli.training_view import TrainingView
 from mc_nested.cli.view import Viewed, viewed
-from mc_nested.errors import ClusterError, DesktopError, LiveError
+from mc_nested.errors import ClusterError, DesktopError, LiveError, NotInFrontError
+from mc_nested.learn.objective_training import ObjectivesTraining
 from mc_nested.learn.runs.earlier_run import EarlierRun, earlier_run
 from mc_nested.learn.runs.run_folder import RunFolder
+from mc_nested.learn.trainer import Trainer
 from mc_nested.learn.training import Training
+from mc_nested.live.action_log import FailureBudget
 from mc_nested.live.session import Opening
 from mc_nested.report.game_time import expected
 from mc_nested.report.tensorboard import FOLDER, TensorBoard, is_installed
+from mc_nested.view.files import remove_status
 from mc_nested.view.publisher import Publisher
-from mc_nested.view.status_files import remove_status
 from mc_nested.workers.cluster.address import SchedulerAddress
-from sim.worlds import Backend, where_words
+from sim.grid import GridVectorEnv
+from sim.team_grid import team_arenas
+from sim.worlds import Backend, as_shown, open_arenas, where_words
 
 SAVE_EVERY_S = {Backend.SIM: 60.0, Backend.VIRTUAL: 60.0, Backend.LIVE: 15.0}
 """Seconds between checkpoints, which is what a kill can cost: in the simulator, or in a game of a block per second."""
 
 
-class EpisodePlayer(Protocol):
-    """Who plays a training's episodes: this computer (own_player.py), or games elsewhere (games_at_play.py)."""
+@dataclass(frozen=True)
+class OwnPlayer:
+    """A trainer and its arenas here; ``log`` says what playing took, None of the simulator."""
 
-    @property
-    def training(self) -> Training:
-        """What is trained."""
-
-    @property
-    def arenas(self) -> Arenas:
-        """Where, for a view."""
+    training: Trainer | ObjectivesTraining
+    arenas: GridVectorEnv | ArenaVectorEnv | TeamVectorEnv
+    log: PlayLog | None
+    was_paused_lately: Callable[[], bool]
+    failures: FailureBudget = field(default_factory=FailureBudget)
 
     def play_on(self) -> list[str]:
-        """Play on for a moment; return lines about who came and what was lost.
+        """Play one tick, and return the practice's news. A mishap in a running game costs its episode, and is counted.
 
-        LiveError, DesktopError or ClusterError if it can't go on.
+        A person in another window who pauses, or did so shortly before, is not counted as a mishap.
         """
+        try:
+            self.training.tick()
+        except DesktopError:
+            self.training.abandon_episodes()
+            raise
+        except LiveError as error:
+            self.training.abandon_episodes()
+            if not (isinstance(error, NotInFrontError) and self.was_paused_lately()):
+                self.failures.record_failure(error, self.training.env_steps)
+        return self.training.practice.news()
 
     def end(self) -> None:
-        """Take what is still under way, and play nothing more."""
+        """Do nothing: what is under way is saved half-way, or starts over."""
 
     def in_words(self) -> str:
-        """Return who plays, where there are several; otherwise an empty text."""
+        """Return an empty text: this computer alone plays."""
+        return ""
 
     def summary(self) -> dict[str, Any]:
-        """Return what playing took, for a training's summary; nothing for the simulator."""
+        """Return what playing in a running game, or on the virtual client, took; nothing for the simulator."""
+        return {"live": {**self.log.summary(), **self.failures.summary()}} if self.log else {}
+
+
+@contextmanager
+def own_player(folder: RunFolder, opening: Opening, publisher: Publisher) -> Iterator[OwnPlayer]:
+    """Yield an untrained trainer for that folder's training, in arenas that are open for the block.
+
+    Errors as ``open_arenas`` raises them.
+    """
+    config = folder.config
+    with open_arenas(Backend(config.backend), folder.scenarios, opening, config.seed) as (opened, log):
+        env = team_arenas(folder.team, config.trials) if folder.team else opened
+        agent = folder.new_agent(config.trials, config.preset.device)
+        shown = env if isinstance(env, TeamVectorEnv) else as_shown(env, config.preset.states)
+        view = agent.view_of(shown, folder.scenarios)
+        asked = folder.scenarios, agent, config.preset, config.seed, config.stop_at_optimum
+        trainer = ObjectivesTraining(*asked) if config.trains_objectives else Trainer(view, *asked)
+        yield OwnPlayer(trainer, env, log, lambda: publisher.was_paused_lately)
 
 
 @dataclass(frozen=True)
@@ -64,20 +99,20 @@ class TrainingLoop:
 
     Args:
         folder: where it is saved.
-        player: who plays its episodes.
+        player: who plays its episodes: this computer, or games elsewhere.
         publisher: shows it to viewers, who may pause it.
         interrupt: whether somebody asked to stop.
         began: when, on time.monotonic()'s clock.
     """
 
     folder: RunFolder
-    player: EpisodePlayer
+    player: OwnPlayer | GamesAtPlay
     publisher: Publisher
     interrupt: Interrupt
     began: float
 
     def run(self, output: Output) -> None:
-        """Train until it is finished or somebody stops it; errors as ``EpisodePlayer.play_on`` raises them."""
+        """Train until it is finished or somebody stops it; errors as its player's ``play_on`` raises them."""
         training, player, config = self.player.training, self.player, self.folder.config
         every = SAVE_EVERY_S[Backend(config.backend)]
         save_at = time.monotonic() + every

@@ -13,7 +13,7 @@ from mc_nested.learn.episode_log import EpisodeRow
 from mc_nested.learn.runs.run_config import RunConfig
 from mc_nested.learn.training import Training
 from mc_nested.report.game_time import expected
-from mc_nested.report.terminal_map import belief_rows
+from mc_nested.report.terminal import belief_rows
 from mc_nested.view.board import Board
 from mc_nested.view.status import MOST_SCORES, ArenaSeen, Learning, Standing
 from sim.worlds import Backend, where_words
@@ -92,12 +92,11 @@ class TrainingView:
     def _arena(self) -> ArenaSeen:
         builders = self._trainer.agent.builders
         places = range(self._trials * builders)
-        return ArenaSeen.of(self._scenario).model_copy(
-            update={
-                "stands": _counted(cell for first in places[::builders] for cell in self._arenas.placed(first)),
-                "agents": _counted(self._arenas.cell(place) for place in places),
-                "beliefs": self._beliefs,
-            }
+        return ArenaSeen.of(
+            self._scenario,
+            stands=_counted(cell for first in places[::builders] for cell in self._arenas.placed(first)),
+            agents=_counted(self._arenas.cell(place) for place in places),
+            beliefs=self._beliefs,
         )
 
     def _learning(self) -> Learning:

@@ -16,9 +16,9 @@ import typer
 
 from mc_nested.cli.completion import RUNS, complete_runs
 from mc_nested.view.board import Board
+from mc_nested.view.files import FOLDER, is_published, status_now
 from mc_nested.view.panels import plain_end, plain_line
 from mc_nested.view.publisher import Publisher
-from mc_nested.view.status_files import FOLDER, is_published, status_now
 from mc_nested.view.terminal_view import TerminalView, can_draw
 from mc_nested.view.words import StatusShown, life_of
 

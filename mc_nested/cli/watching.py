@@ -23,8 +23,7 @@ from mc_nested.live.live_game import LiveGame
 from mc_nested.live.vision.chat_region import blanked_share, without_chat
 from mc_nested.live.vision.game_screen import seen_gui_scale
 from mc_nested.report.arena_picture import ARENA_PX, SMALL_ARENA_PX
-from mc_nested.report.film import is_gif, open_film
-from mc_nested.report.filmed_game import FilmedGame, Window
+from mc_nested.report.film import FilmedGame, Window, is_gif, open_film
 from mc_nested.report.terminal import arena_view
 from mc_nested.view.status import ArenaSeen, Standing
 
@@ -48,9 +47,7 @@ Played = TypeVar("Played")
 def arena_seen(env: ArenaEnv, objective: Cell | None) -> ArenaSeen:
     """Return an Env's arena for the view, and the cell that the agent is after in it, if it has one."""
     stands = tuple(Standing(x, y, 1) for x, y in sorted(env.placed))
-    return ArenaSeen.of(env.scenario).model_copy(
-        update={"stands": stands, "agents": (Standing(*env.cell, 1),), "objective": objective}
-    )
+    return ArenaSeen.of(env.scenario, stands=stands, agents=(Standing(*env.cell, 1),), objective=objective)
 
 
 @contextmanager

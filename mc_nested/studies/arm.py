@@ -4,7 +4,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
-from mc_nested.arena.corpus_file import MOST_DESIGNS
+from mc_nested.arena.design import MOST_DESIGNS
 from mc_nested.arena.scenario import Scenario
 from mc_nested.learn.agents import AGENT_SPECS, AgentSpec, check_exploration, check_parts
 from mc_nested.learn.builders import Networks

@@ -13,9 +13,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.ticker import PercentFormatter, StrMethodFormatter
 
-from mc_nested.arena.corpus_file import load_corpus
-from mc_nested.arena.design import CORNER, EDGE, KINDS, SCATTERED, kind_of_design
-from mc_nested.arena.random_designs import random_scenario
+from mc_nested.arena.design import CORNER, EDGE, KINDS, SCATTERED, kind_of_design, load_corpus, random_scenario
 from mc_nested.arena.scenario_file import load_scenario
 from mc_nested.arrays import Float64s, Int64s
 from mc_nested.errors import PresetError, UserError

@@ -7,7 +7,7 @@ from typing import Annotated, TypeVar
 from pydantic import Field
 
 from mc_nested.arena.cooperative.team import MOST_BUILDERS
-from mc_nested.arena.corpus_file import MOST_DESIGNS
+from mc_nested.arena.design import MOST_DESIGNS
 from mc_nested.arena.scenario_file import ScenarioTable, scenario_of, table_of
 from mc_nested.errors import RunError
 from mc_nested.learn.builders import Networks

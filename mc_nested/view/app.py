@@ -19,8 +19,20 @@ from textual.widgets import Footer
 
 from mc_nested.errors import RunError
 from mc_nested.view import panels
-from mc_nested.view.requests import YesOrNo, ask_pause, ask_to_go_on, ask_to_stop, give_answer, renew_pause
-from mc_nested.view.status_files import FOLDER, NOW, Scrubber, history_of, is_published, status_now
+from mc_nested.view.files import (
+    FOLDER,
+    NOW,
+    Scrubber,
+    YesOrNo,
+    ask_pause,
+    ask_to_go_on,
+    ask_to_stop,
+    give_answer,
+    history_of,
+    is_published,
+    renew_pause,
+    status_now,
+)
 from mc_nested.view.words import Life, StatusShown, life_of
 
 Draw = Callable[[StatusShown, int, int], Text]
@@ -132,10 +144,10 @@ class ViewApp(App[None]):
     def compose(self) -> ComposeResult:
         """Return the parts, from top to bottom."""
         yield Panel(panels.title, id="title")
-        yield Panel(panels.status_line, id="status")
+        yield Panel(panels.status_lines, id="status")
         with Container(id="body"):
             yield Panel(panels.arena, id="arena")
-            yield Panel(panels.side, id="side")
+            yield Panel(lambda shown, width, height: panels.side_panel(shown.status, width, height), id="side")
         yield Panel(self._moment, id="moment")
         yield Footer()
 
@@ -262,7 +274,7 @@ class ViewApp(App[None]):
 
     def _layout_for(self, shown: StatusShown) -> _Layout:
         width, height = self.size
-        lines = len(panels.status_lines(shown, width).split("\n"))
+        lines = len(panels.status_lines(shown, width, height).split("\n"))
         arena = shown.status.arena
         return _Layout(
             is_narrow=width < NARROW,

@@ -8,7 +8,7 @@ from rich.text import Text
 
 from mc_nested.arena.action import Cell
 from mc_nested.arena.drawing import AGENT, BUILT, FREE, MISSING, PARTS, WRONG
-from mc_nested.report import terminal, terminal_map
+from mc_nested.report import terminal
 from mc_nested.view.status import ArenaSeen, Standing
 
 NOT_KNOWN = "+"
@@ -24,7 +24,7 @@ SHADES = "░▒▓█"
 
 BELIEVED: Mapping[str, tuple[str, str]] = {
     "?": ("bold yellow", "believed to pay"),
-    "o": (terminal_map.STYLES["o"], "known to pay"),
+    "o": (terminal.MAP_STYLES["o"], "known to pay"),
     "-": ("bright_black", "pays nothing"),
     NOT_KNOWN: ("cyan", "not known yet"),
 }

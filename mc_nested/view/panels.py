@@ -139,7 +139,7 @@ def title(shown: StatusShown, width: int, _height: int) -> Text:
     return text
 
 
-def status_lines(shown: StatusShown, width: int) -> Text:
+def status_lines(shown: StatusShown, width: int, _height: int) -> Text:
     """Return what the run does, waits for, or is stuck on, and since when; whole, in as many lines as it takes."""
     word, sentence = status_words(shown)
     sign, style = SIGNS[word]
@@ -149,21 +149,11 @@ def status_lines(shown: StatusShown, width: int) -> Text:
     return Text.assemble((f"{sign} ", style), text)
 
 
-def status_line(shown: StatusShown, width: int, _height: int) -> Text:
-    """Return the status lines, as a part of the view draws them."""
-    return status_lines(shown, width)
-
-
 def arena(shown: StatusShown, width: int, height: int) -> Text:
     """Return the arena from above; empty where a run has none, as calibration."""
     seen = shown.status.arena
     trials = shown.status.learning.trials if shown.status.learning else 1
     return arena_panel(seen, trials, width, height) if seen and width and height else Text()
-
-
-def side(shown: StatusShown, width: int, height: int) -> Text:
-    """Return what is shown beside the arena."""
-    return side_panel(shown.status, width, height)
 
 
 def moment(shown: StatusShown, width: int, _height: int) -> Text:

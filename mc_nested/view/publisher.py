@@ -13,8 +13,7 @@ from types import TracebackType
 from mc_nested.errors import RunError
 from mc_nested.learn.runs.folder_lock import folder_lock
 from mc_nested.view.board import Board
-from mc_nested.view.requests import Requests
-from mc_nested.view.status_files import FOLDER, StatusFiles
+from mc_nested.view.files import FOLDER, Requests, StatusFiles
 
 PUBLISH_EVERY_S = 0.3
 """Three times a second: no more often than an eye can follow, and a hundredth of a core."""

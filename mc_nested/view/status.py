@@ -1,6 +1,6 @@
 """Status: all that the live view shows of a run at one moment. It is plain data, so that a file can hold it."""
 
-from typing import Annotated, Literal, NamedTuple
+from typing import Annotated, Any, Literal, NamedTuple
 
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field
 
@@ -53,7 +53,7 @@ class ArenaSeen(BaseModel):
     """The arena from above: its size, the design, what stands, where the agents are.
 
     ``beliefs``, where the run learns its game: a text of a sign a cell for each row, the nearest row first, with the
-    signs of report/terminal_map.py. ``objective``: the cell that the agent is after, if it has one.
+    signs of report/terminal.py. ``objective``: the cell that the agent is after, if it has one.
     """
 
     model_config = ConfigDict(frozen=True)
@@ -67,10 +67,10 @@ class ArenaSeen(BaseModel):
     objective: Cell | None = None
 
     @classmethod
-    def of(cls, scenario: Scenario) -> "ArenaSeen":
-        """Return the empty arena of a scenario."""
+    def of(cls, scenario: Scenario, **seen: Any) -> "ArenaSeen":
+        """Return the arena of a scenario, with what is seen in it."""
         parts = tuple(tuple(sorted(part.cells)) for part in scenario.parts)
-        return cls(size=scenario.size, design=tuple(sorted(scenario.design)), parts=parts)
+        return cls(size=scenario.size, design=tuple(sorted(scenario.design)), parts=parts, **seen)
 
 
 class ReadingSeen(BaseModel):

@@ -1,5 +1,6 @@
 """The words of the view: times, the status line, and how far a training is."""
 
+import textwrap
 import time
 from dataclasses import dataclass
 from typing import Literal
@@ -82,18 +83,12 @@ def _asked_words(status: Status, since: str) -> tuple[str, str] | None:
 
 
 def wrapped(text: str, width: int) -> list[str]:
-    """Return a text as lines of at most so many characters, broken between words.
+    """Return a text as lines of at most so many characters, one at least, broken between words.
 
     A longer word has a line of its own.
     """
-    lines, line = [], ""
-    for word in text.split():
-        if line and len(line) + 1 + len(word) > width:
-            lines.append(line)
-            line = word
-        else:
-            line = f"{line} {word}".strip()
-    return [*lines, line]
+    lines = textwrap.wrap(" ".join(text.split()), max(1, width), break_long_words=False, break_on_hyphens=False)
+    return lines or [""]
 
 
 def learning_lines(learning: Learning) -> list[str]:

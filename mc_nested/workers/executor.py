@@ -1,5 +1,10 @@
-"""JobExecutor: the seam between a study and whoever trains its jobs, its messages, and the loop that waits for jobs."""
+"""JobExecutor: the seam between a study and whoever trains its jobs, its messages, and the loop that waits for jobs.
 
+Whoever trains one does so here, too, in the job's folder, until it is finished or nobody wants it to go on.
+"""
+
+import re
+import time
 from collections.abc import Callable, Sequence
 from concurrent.futures import CancelledError, Future
 from contextlib import suppress
@@ -8,8 +13,15 @@ from pathlib import Path
 from queue import Empty, SimpleQueue
 from typing import Protocol, TypeVar
 
-from mc_nested.errors import RunError
+from mc_nested.atomic_file import refused_as
+from mc_nested.errors import RunError, UserError
+from mc_nested.learn.runs.folder_lock import folder_lock
+from mc_nested.report.tensorboard import FOLDER, TensorBoard, is_installed
 from mc_nested.studies.job import Job
+from mc_nested.studies.job_training import JobTraining, agents_trainer, team_of_job
+from mc_nested.studies.sb3 import Sb3Training
+from sim.grid import GridVectorEnv
+from sim.team_grid import team_arenas
 
 
 @dataclass(frozen=True)
@@ -69,24 +81,37 @@ def train_jobs(
     for job, folder in jobs:
         executor.submit(job, folder).add_done_callback(done.put)
     waiting = len(jobs)
-    found = _Found()
+    failed = lost = ""
     stopping = False
     while waiting:
-        if not stopping and (is_stopped() or found.failed or found.lost):
+        if not stopping and (is_stopped() or failed or lost):
             stopping = True
             executor.stop()
         arrived = come_to(done, LOOK_EVERY_S)
         waiting -= len(arrived)
         for report in executor.reports():
             watch(report)
-        for future in arrived:
-            if ended := found.of(future, stopping):
-                watch(ended)
+        for end in map(_end_of, arrived):
+            if isinstance(end, JobEnded):
+                failed = failed or end.failed
+                if not (end.finished or end.failed or stopping):
+                    lost = lost or "a training process was asked to stop"
+                watch(end)
+            elif end:
+                lost = lost or str(end)
         watch(None)
-    if found.failed:
-        raise RunError(found.failed)
-    if found.lost and not is_stopped():  # stopping everything may stop the processes, too
-        raise RunError(found.lost)
+    if failed or (lost and not is_stopped()):  # stopping everything may stop the processes, too
+        raise RunError(failed or lost)
+
+
+def _end_of(future: Future[JobEnded]) -> JobEnded | RunError | None:
+    """Return how that future's job ended: why it was lost, None if it was cancelled. Any other error is a bug."""
+    try:
+        return future.result()
+    except CancelledError:
+        return None
+    except RunError as error:
+        return error
 
 
 Item = TypeVar("Item")
@@ -103,26 +128,72 @@ def come_to(queue: "SimpleQueue[Item]", timeout_s: float) -> list[Item]:
     return []
 
 
-class _Found:
-    """Why the first job failed, and why the first was lost, in words; empty as long as none was."""
+PATIENCE_S = 10.0
+"""Seconds that a process whose parent was killed may take to save the job that another goes on with."""
 
-    def __init__(self) -> None:
-        self.failed = ""
-        self.lost = ""
+TrainedJob = JobTraining | Sb3Training
+"""A job that is trained in its folder, by whatever algorithm."""
 
-    def of(self, future: Future[JobEnded], stopping: bool) -> JobEnded | None:
-        """Return how that future's job ended.
+Report = Callable[[JobReport], bool]
+"""Is told how far a job has got; returns whether the job shall go on."""
 
-        It is None if it was cancelled or lost. An error that isn't a RunError is a bug.
-        """
-        try:
-            ended = future.result()
-        except CancelledError:
-            return None
-        except RunError as error:
-            self.lost = self.lost or str(error)
-            return None
-        self.failed = self.failed or ended.failed
-        if not (ended.finished or ended.failed or stopping):
-            self.lost = self.lost or "a training process was asked to stop"
-        return ended
+
+def train_job(job: Job, folder: Path, report: Report, report_every_s: float) -> JobEnded:
+    """Train the job from where its folder has it, until it is finished, or saved because ``report`` returned False.
+
+    It is reported at its beginning, at its end, and every ``report_every_s`` seconds. What a user can mend, a full disk
+    or too little memory, is said in what is returned.
+    """
+    try:
+        with folder_lock(folder, PATIENCE_S):
+            training = _training_of(job, folder)
+            _tick_until_done(training, folder, report, report_every_s)
+            if training.finished:
+                training.finish()
+            else:
+                training.save()
+    except UserError as error:
+        return JobEnded(job.name, finished=False, failed=str(error))
+    except MemoryError:
+        return JobEnded(job.name, finished=False, failed="not enough memory: fewer --trials, or a smaller preset")
+    return JobEnded(job.name, finished=training.finished)
+
+
+def _training_of(job: Job, folder: Path) -> TrainedJob:
+    if team := team_of_job(job):
+        return JobTraining(job, folder, agents_trainer(job, team_arenas(team, len(job.trials))))
+    arenas = GridVectorEnv(job.scenarios)
+    if job.arm.library is None:
+        return JobTraining(job, folder, agents_trainer(job, arenas))
+    return Sb3Training(job, folder, arenas, GridVectorEnv(job.scenarios))
+
+
+def _events(training: TrainedJob, folder: Path) -> TensorBoard | None:
+    if not (isinstance(training, JobTraining) and is_installed()):
+        return None
+    job = training.job
+    names = (re.sub(r"[^\w.-]+", "-", f"{run.arm.name}-{run.scenario.name}-{run.trial}") for run in job.runs)
+    with refused_as(RunError, folder, "make room"):
+        return TensorBoard([folder.parent.parent / FOLDER / name for name in names], training.trainer)
+
+
+def _tick_until_done(training: TrainedJob, folder: Path, report: Report, report_every_s: float) -> None:
+    report_at = time.monotonic()
+    events = _events(training, folder)
+    scores: list[float | None] = [None] * len(training.job.trials)
+    seen = 0
+    while True:
+        # Reported before the first tick and after the last, too: a job may be over before a report is due.
+        if training.finished or time.monotonic() >= report_at:
+            report_at = time.monotonic() + report_every_s
+            rows = training.evaluation_rows
+            for row in rows[seen:]:
+                scores[row.trial] = row.score
+            seen = len(rows)
+            now = JobReport(training.job.name, training.episodes_done.tolist(), tuple(scores), training.updates)
+            if not report(now) or training.finished:
+                return
+        training.tick()
+        if events:
+            with refused_as(RunError, folder, "make room"):
+                events.write()

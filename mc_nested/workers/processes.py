@@ -18,8 +18,7 @@ from threading import Lock
 
 from mc_nested.errors import RunError
 from mc_nested.studies.job import Job
-from mc_nested.workers.executor import JobEnded, JobReport
-from mc_nested.workers.train_job import train_job
+from mc_nested.workers.executor import JobEnded, JobReport, train_job
 
 REPORT_EVERY_S = 0.25
 """Seconds between two reports, and between two looks whether to stop."""

@@ -22,7 +22,7 @@ from rich.console import Console
 from rich.progress import track
 
 from mc_nested.arena.builder import build
-from mc_nested.arena.random_designs import FEW_BLOCKS, random_scenario
+from mc_nested.arena.design import FEW_BLOCKS, random_scenario
 from mc_nested.arena.scenario import Scenario
 from mc_nested.arena.scenario_file import load_scenario, shipped_scenarios, table_of
 from mc_nested.arrays import Bools, Float32s

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from mc_nested.arena.corpus_file import load_corpus, parse_corpus
+from mc_nested.arena.design import load_corpus, parse_corpus
 from mc_nested.arena.scenario_file import load_scenario
 from mc_nested.errors import ScenarioError
 
@@ -70,6 +70,6 @@ def test_a_missing_file_is_refused_in_one_line(tmp_path: Path) -> None:
 
 
 def test_a_design_that_the_builder_can_not_build_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("mc_nested.arena.corpus_file.scenario_of_design", lambda *_: None)
+    monkeypatch.setattr("mc_nested.arena.design.scenario_of_design", lambda *_: None)
     with pytest.raises(ScenarioError, match="mine: design 'a': the scripted builder can't build it: draw another"):
         parse_corpus(corpus(("a", "#")), "mine", LINE)

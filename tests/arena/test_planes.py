@@ -83,10 +83,10 @@ def test_a_restored_view_continues_with_its_arenas() -> None:
     for view in both_views(SMALL):
         view.reset()
         view.step(np.array([Action.FD]))
-        assert view.resumable is view
-        kept = {name: array.copy() for name, array in view.snapshot().items()}
+        assert view.resumable
+        kept = {name: array.copy() for name, array in view.resumable.snapshot().items()}
         expected = view.step(np.array([Action.LD]))[0]
-        view.restore(kept)
+        view.resumable.restore(kept)
         np.testing.assert_array_equal(view.step(np.array([Action.LD]))[0], expected)
 
 

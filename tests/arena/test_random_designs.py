@@ -5,8 +5,15 @@ import hashlib
 import numpy as np
 import pytest
 
-from mc_nested.arena.design import KINDS, SCATTERED, is_buildable, kind_of_design
-from mc_nested.arena.random_designs import FEW_BLOCKS, draw_design, random_scenario
+from mc_nested.arena.design import (
+    FEW_BLOCKS,
+    KINDS,
+    SCATTERED,
+    draw_design,
+    is_buildable,
+    kind_of_design,
+    random_scenario,
+)
 from mc_nested.arena.scenario_file import load_scenario, table_of
 
 LINE = load_scenario("line")
@@ -45,7 +52,7 @@ def test_every_number_of_blocks_is_drawn_and_every_design_can_be_built() -> None
 def test_a_random_design_of_the_wrong_kind_or_unbuildable_is_drawn_again(monkeypatch: pytest.MonkeyPatch) -> None:
     touching, apart = frozenset({(3, 3), (3, 4)}), frozenset({(3, 3), (9, 9)})
     drawn = iter([touching, frozenset({(3, 0), (9, 9)}), apart])
-    monkeypatch.setattr("mc_nested.arena.random_designs.draw_design", lambda *_: next(drawn))
+    monkeypatch.setattr("mc_nested.arena.design.draw_design", lambda *_: next(drawn))
     assert random_scenario(0, KINDS.index(SCATTERED), LINE).design == apart
 
 

@@ -7,7 +7,7 @@ import pytest
 from mc_nested.arena.action import Cell
 from mc_nested.arena.scenario import Scenario
 from mc_nested.report import terminal
-from mc_nested.report.filmed_game import FilmedGame
+from mc_nested.report.film import FilmedGame
 from mc_nested.view.board import Board
 
 

@@ -8,7 +8,7 @@ import pytest
 from calibration.calibrate_all import CalibrationStep
 from calibration.context import CalibrationContext, OpenContext, StepResult
 from calibration.doctor.check import Check, CheckName
-from mc_nested.cli import calibrate, calibrate_steps
+from mc_nested.cli import calibrate
 from mc_nested.cli.output import json_fields
 from mc_nested.errors import LiveError
 from mc_nested.live.profile.store import load_profile, save_profile
@@ -37,7 +37,7 @@ def set_up(
         Check(name, "fail", "it is wrong", "mend it") if name == failing else Check(name, "pass", "")
         for name in CheckName
     ]
-    monkeypatch.setattr(calibrate_steps, "context_opener", lambda *_: context_opener_for(client))
+    monkeypatch.setattr(calibrate, "context_opener", lambda *_: context_opener_for(client))
     monkeypatch.setattr(calibrate, "registered_steps", lambda *_, **__: list(steps))
     monkeypatch.setattr(calibrate, "_examined", lambda _font, _name: rows)
 
@@ -123,7 +123,7 @@ def test_instructions_to_the_player_are_printed_even_with_quiet_or_json(
         return context_opener_for(client)
 
     set_up(monkeypatch, client, with_font(tmp_path))
-    monkeypatch.setattr(calibrate_steps, "context_opener", opener)
+    monkeypatch.setattr(calibrate, "context_opener", opener)
     assert code_of(tmp_path / "mine.toml", *words) == 0
     printed = capsys.readouterr()
     assert "Switch to the game.\n" in (printed.err if words else printed.out)
@@ -160,7 +160,7 @@ def test_failing_gate_row_of_the_doctor_ends_the_run_with_its_fix(
 def test_cell_outside_the_arena_is_refused_in_one_line_and_nothing_is_written(
     monkeypatch: pytest.MonkeyPatch, client: VirtualClient, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    monkeypatch.setattr(calibrate_steps, "context_opener", lambda *_: context_opener_for(client))
+    monkeypatch.setattr(calibrate, "context_opener", lambda *_: context_opener_for(client))
     assert code_of(tmp_path / "mine.toml", "--standing", "-1", "0") == 2
     said = capsys.readouterr()
     assert said.out == ""
@@ -179,7 +179,7 @@ def test_options_reach_the_steps_and_server_allowed_reaches_the_game(
         return context_opener_for(client)
 
     set_up(monkeypatch, client)
-    monkeypatch.setattr(calibrate_steps, "context_opener", opener)
+    monkeypatch.setattr(calibrate, "context_opener", opener)
 
     def steps(*_: object, **options: object) -> list[CalibrationStep]:
         given.update(options)

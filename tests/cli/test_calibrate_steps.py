@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, cast
 import pytest
 
 from calibration.context import CalibrationContext, OpenContext, StepResult
-from mc_nested.cli import calibrate, calibrate_steps
+from mc_nested.cli import calibrate
 from mc_nested.cli.view import Viewed
 from mc_nested.errors import UserError
 from mc_nested.live.profile.store import load_profile, save_profile
@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 def client(monkeypatch: pytest.MonkeyPatch) -> VirtualClient:
     """Return the game on this desktop."""
     client = started(VirtualClient(pitch=65.0))
-    monkeypatch.setattr(calibrate_steps, "context_opener", lambda opening, ask: context_on(client, opening.say, ask))
+    monkeypatch.setattr(calibrate, "context_opener", lambda opening, ask: context_on(client, opening.say, ask))
     return client
 
 
@@ -41,7 +41,7 @@ def shared(monkeypatch: pytest.MonkeyPatch) -> VirtualClient:
     def opener(opening: Opening, _ask: object) -> OpenContext:
         return context_on(client, opening.say, is_server_allowed=opening.is_server_allowed)
 
-    monkeypatch.setattr(calibrate_steps, "context_opener", opener)
+    monkeypatch.setattr(calibrate, "context_opener", opener)
     return client
 
 
@@ -201,7 +201,7 @@ def test_walk_step_runs_in_a_shared_game_only_with_server_allowed(
             context.connection.check_single_player()
         return StepResult("walk", Profile(), ("one cell is 4 ticks", "sneaking is slower"), 1), tmp_path / "curve.png"
 
-    monkeypatch.setattr(calibrate_steps, "calibrate_walk", measure)
+    monkeypatch.setattr(calibrate, "calibrate_walk", measure)
     assert run("calibrate", "walk", "--server-allowed", "--profile", "mine") == 0
     assert capsys.readouterr().out.splitlines() == [
         "one cell is 4 ticks",
@@ -247,8 +247,8 @@ class OnlyQuestion:
 @pytest.fixture
 def asked(monkeypatch: pytest.MonkeyPatch) -> OnlyQuestion:
     only = OnlyQuestion()
-    monkeypatch.setattr(calibrate_steps, "viewed", only.viewed)
-    monkeypatch.setattr(calibrate_steps, "context_opener", only.context_opener)
+    monkeypatch.setattr(calibrate, "viewed", only.viewed)
+    monkeypatch.setattr(calibrate, "context_opener", only.context_opener)
     return only
 
 
@@ -261,7 +261,7 @@ def test_calibration_asks_its_questions_through_the_view_and_notes_its_journal_t
         return True
 
     opening = Opening("mine", print)
-    opened = calibrate_steps.calibrating("walk", opening, is_viewed=is_viewed, ask=in_the_terminal, yes=yes)
+    opened = calibrate.calibrating("walk", opening, is_viewed=is_viewed, ask=in_the_terminal, yes=yes)
     with pytest.raises(UserError, match="that is all"), opened as calibration, calibration.context_of(Profile()):
         pass
     assert asked.is_viewed is is_viewed

@@ -8,12 +8,12 @@ import pytest
 
 from mc_nested.arena.env import ArenaEnv
 from mc_nested.arena.vector import ArenaVectorEnv
-from mc_nested.cli.games_at_play import GamesAtPlay, LastEpisode, blocks_of
+from mc_nested.cli.games_at_play import GamesAtPlay, blocks_of
 from mc_nested.errors import ClusterError
 from mc_nested.learn.games.episode import EpisodePlan, PlayedEpisode
 from mc_nested.learn.games.player import play_episode
 from mc_nested.workers.games.dask_games import Answered, GameEvent, Joined, Left, NameTaken, Unreachable
-from mc_nested.workers.games.messages import GameAnswer
+from mc_nested.workers.games.mailbox import GameAnswer
 from sim.grid import GridGame
 from tests.learn.made_experiments import DOT
 from tests.workers.games.made_setups import SETUP, new_trainer
@@ -187,7 +187,7 @@ def test_second_game_of_the_same_name_is_reported_as_refused(play: Play) -> None
 
 
 def test_the_view_shows_the_episode_that_came_back_last(play: Play) -> None:
-    shown = LastEpisode(play.at_play, DOT, 0)
+    shown = play.at_play.arenas
     assert (shown.cell(0), shown.placed(0)) == (DOT.start, frozenset())
     (plan,) = play.begin("one")
     arena = ArenaVectorEnv([ArenaEnv(GridGame(DOT), DOT)])

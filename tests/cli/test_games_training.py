@@ -22,15 +22,14 @@ from mc_nested.learn.preset import load_preset
 from mc_nested.learn.runs.checkpoint import FILE
 from mc_nested.workers.cluster.address import SchedulerAddress
 from mc_nested.workers.cluster.connection import connected
+from mc_nested.workers.cluster.job_task import own_versions
 from mc_nested.workers.cluster.keys import make_keys
-from mc_nested.workers.cluster.versions import own_versions
 from mc_nested.workers.games import dask_games
 from mc_nested.workers.games import mailbox as mailboxes
 from mc_nested.workers.games.dask_games import Answered, DaskGames, GameEvent
 from mc_nested.workers.games.game_server import GameServer, OpenGame
 from mc_nested.workers.games.game_worker import GameWorker
-from mc_nested.workers.games.mailbox import Mailbox
-from mc_nested.workers.games.messages import GameAnswer, GameSetup
+from mc_nested.workers.games.mailbox import GameAnswer, GameSetup, Mailbox
 from sim.virtual_games import VirtualPlay, open_virtual_games
 from tests.cli.running import check_mistake, run, table
 from tests.dask_fixture import LEFTOVERS, leftovers

@@ -1,33 +1,20 @@
-"""Options that several verbs share: scenarios by name and file, layers, arenas by size, and the live summary."""
+"""Options that several verbs share: scenarios by name and file, layers, and arenas by size."""
 
 import dataclasses
 from pathlib import Path
-from typing import Any
 
 import pytest
 
 from mc_nested.arena.scenario_file import draw_grid
-from mc_nested.cli.options import arena_size, named_scenarios, played_live
+from mc_nested.cli.options import arena_size, named_scenarios
 from mc_nested.errors import ScenarioError, UserError
 from mc_nested.learn.runs.run_folder import RunFolder
-from mc_nested.live.action_log import FailureBudget
 from mc_nested.live.profile.arena import Arena
 from mc_nested.live.profile.store import save_profile
 from mc_nested.live.profile.tables import Profile
 from tests.cli.running import run
 from tests.design_files.written import HUT, picture, sponge
 from tests.learn.made_experiments import DOT, scenario_text
-
-
-class Log:
-    def summary(self) -> dict[str, Any]:
-        return {"actions": 3}
-
-
-def test_summary_has_a_live_games_log_and_failures_and_nothing_of_the_simulator() -> None:
-    budget = FailureBudget()
-    assert played_live(Log(), budget) == {"live": {"actions": 3, **budget.summary()}}
-    assert played_live(None, budget) == {}
 
 
 def test_scenario_larger_than_the_calibrated_arena_is_refused_and_nothing_is_written(

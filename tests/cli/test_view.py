@@ -6,8 +6,8 @@ from pathlib import Path
 import pytest
 
 from mc_nested.view.board import Board
+from mc_nested.view.files import StatusFiles
 from mc_nested.view.publisher import Publisher
-from mc_nested.view.status_files import StatusFiles
 from tests.cli.running import run
 from tests.view.shown import LIVE
 

@@ -71,9 +71,11 @@ def test_a_film_whose_ffmpeg_was_killed_raises_and_leaves_no_file(tmp_path: Path
         with open_film(tmp_path / "film.mp4") as film:
             film.show(RED, 0.0)
             film.show(RED, 0.1)
-            ffmpeg = film._encoder._ffmpeg  # type: ignore[attr-defined]  # to kill it
-            ffmpeg.kill()
-            ffmpeg.wait()
+            encoder = film._encoder
+            assert isinstance(encoder, Mp4Encoder)
+            assert encoder._ffmpeg
+            encoder._ffmpeg.kill()
+            encoder._ffmpeg.wait()
             for number in range(2, 200):
                 film.show(RED, number / 10)
 

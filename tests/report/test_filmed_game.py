@@ -8,8 +8,7 @@ from mc_nested.arena.builder import build
 from mc_nested.arena.drawing import Picture
 from mc_nested.arena.scenario_file import load_scenario
 from mc_nested.report.arena_picture import Moment, beside, box_for, draw_moment
-from mc_nested.report.film import Film
-from mc_nested.report.filmed_game import FIRST_S, STEP_S, FilmedGame, Window
+from mc_nested.report.film import FIRST_S, STEP_S, Film, FilmedGame, Window
 from sim.grid import GridGame
 from tests.arena.game_contract import BUMPS, check_following, check_game
 from tests.report.films import flat

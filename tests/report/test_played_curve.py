@@ -7,7 +7,7 @@ import pytest
 from matplotlib.colors import to_rgb
 
 from mc_nested.learn.episode_log import EpisodeRow, EvaluationRow
-from mc_nested.report.played_curve import EVALUATED, draw_played_curve, played_by
+from mc_nested.report.curve import EVALUATED, draw_played_curve, played_by
 
 
 def test_an_evaluation_follows_the_episode_of_its_number_and_takes_game_time() -> None:

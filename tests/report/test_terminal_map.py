@@ -2,7 +2,7 @@
 
 from rich.console import Console
 
-from mc_nested.report.terminal_map import map_view
+from mc_nested.report.terminal import map_view
 from tests.report.made_known_arena import made_known_arena
 
 

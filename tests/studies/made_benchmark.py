@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from mc_nested.arena.random_designs import random_scenario
+from mc_nested.arena.design import random_scenario
 from mc_nested.studies.arm import Arm
 from mc_nested.studies.trial import Trial
 from tests.studies.made_trials import LINE, PAPER, made_arm, made_trial

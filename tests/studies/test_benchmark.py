@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from mc_nested.arena.corpus_file import MOST_DESIGNS
+from mc_nested.arena.design import MOST_DESIGNS
 from mc_nested.errors import RunError, UserError
 from mc_nested.learn.agents import AGENT_SPECS
 from mc_nested.learn.preset import Preset, load_preset

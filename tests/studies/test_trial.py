@@ -2,7 +2,7 @@
 
 import pytest
 
-from mc_nested.arena.corpus_file import MOST_DESIGNS
+from mc_nested.arena.design import MOST_DESIGNS
 from mc_nested.studies.arm import Arm
 from mc_nested.studies.config import config_of
 from mc_nested.studies.job import Job

@@ -11,9 +11,8 @@ from textual.pilot import Pilot
 
 from mc_nested.view import app as looking
 from mc_nested.view.app import ViewApp
-from mc_nested.view.requests import Requests, ask_pause
+from mc_nested.view.files import FOLDER, Requests, StatusFiles, ask_pause
 from mc_nested.view.status import FORMAT, ArenaSeen, Learning, Standing, Status
-from mc_nested.view.status_files import FOLDER, StatusFiles
 from mc_nested.view.words import FRESH_S
 from tests.view.shown import LIVE, screen_text
 

@@ -10,9 +10,18 @@ import pytest
 from mc_nested.errors import LiveError
 from mc_nested.view import publisher as publishing
 from mc_nested.view.board import Board
+from mc_nested.view.files import (
+    FOLDER,
+    STOP,
+    YesOrNo,
+    ask_pause,
+    ask_to_go_on,
+    ask_to_stop,
+    give_answer,
+    is_published,
+    status_now,
+)
 from mc_nested.view.publisher import LOOK_S, Publisher, press_ctrl_c
-from mc_nested.view.requests import STOP, YesOrNo, ask_pause, ask_to_go_on, ask_to_stop, give_answer
-from mc_nested.view.status_files import FOLDER, is_published, status_now
 
 PATIENCE_S = 20.0
 

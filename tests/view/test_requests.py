@@ -3,8 +3,9 @@ from pathlib import Path
 
 import pytest
 
-from mc_nested.view.requests import (
+from mc_nested.view.files import (
     ANSWER,
+    FOLDER,
     PAUSE,
     RENEWED_S,
     Requests,
@@ -15,7 +16,6 @@ from mc_nested.view.requests import (
     give_answer,
     renew_pause,
 )
-from mc_nested.view.status_files import FOLDER
 
 
 class Clock:

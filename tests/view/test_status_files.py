@@ -7,9 +7,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from mc_nested.errors import RunError
-from mc_nested.view import status_files
-from mc_nested.view.status import FORMAT, Learning, Status
-from mc_nested.view.status_files import (
+from mc_nested.view import files
+from mc_nested.view.files import (
     FOLDER,
     HISTORY,
     KEEP_EVERY_S,
@@ -21,6 +20,7 @@ from mc_nested.view.status_files import (
     remove_status,
     status_now,
 )
+from mc_nested.view.status import FORMAT, Learning, Status
 from tests.view.shown import LIVE
 
 
@@ -50,7 +50,7 @@ def test_a_status_that_is_just_being_replaced_is_read_a_moment_later(
     monkeypatch.setattr(Path, "read_bytes", read_bytes)
     assert status_now(tmp_path) == LIVE
     refused[0] = 1_000_000
-    monkeypatch.setattr(status_files, "REPLACED_WITHIN_S", 0.05)
+    monkeypatch.setattr(files, "REPLACED_WITHIN_S", 0.05)
     with pytest.raises(RunError, match="can't be read, Permission denied: let this account read it"):
         status_now(tmp_path)
 

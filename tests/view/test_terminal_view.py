@@ -13,8 +13,8 @@ import pytest
 
 from mc_nested.cli.view import Viewed, viewed
 from mc_nested.view.board import Board
+from mc_nested.view.files import status_now
 from mc_nested.view.publisher import Publisher
-from mc_nested.view.status_files import status_now
 from tests.cli.running import run
 
 if not sys.platform.startswith("linux"):

@@ -387,7 +387,7 @@ def test_job_waits_until_another_process_has_released_its_folder(
 def test_a_job_whose_folder_another_process_holds_is_reported(
     pipe: tuple[Connection, Connection], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("mc_nested.workers.train_job.PATIENCE_S", 0.1)
+    monkeypatch.setattr("mc_nested.workers.executor.PATIENCE_S", 0.1)
     with folder_lock(tmp_path):
         (ended,) = asked_to_stop(pipe, tmp_path)
     assert isinstance(ended, JobEnded)

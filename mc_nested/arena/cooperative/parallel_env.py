@@ -9,7 +9,7 @@ import numpy as np
 from gymnasium.error import ResetNeeded
 from gymnasium.spaces import Discrete, Space
 
-from mc_nested.arena.action import Action, Cell
+from mc_nested.arena.action import Action
 from mc_nested.arena.cooperative.team import Team, TeamGame
 from mc_nested.arena.cooperative.team_env import TeamVectorEnv, rendered_team
 from mc_nested.arena.env import RENDERING, highest_observation, space_up_to
@@ -89,11 +89,8 @@ class CooperativeEnv(ParallelEnv):  # type: ignore[misc]  # pettingzoo comes wit
 
     def render(self) -> Any:
         """Return the arena from above: (H, W, 3) RGB for "rgb_array", lines of text for "ansi", None without a mode."""
-        return rendered_team(self.render_mode, self.team, self._cells, self._arena.placed(0))
-
-    @property
-    def _cells(self) -> list[Cell]:
-        return [self._arena.cell(builder) for builder in range(self.team.builders)]
+        cells = [self._arena.cell(builder) for builder in range(self.team.builders)]
+        return rendered_team(self.render_mode, self.team, cells, self._arena.placed(0))
 
     def _of_each(self, observations: Int64s) -> Of:
         return {

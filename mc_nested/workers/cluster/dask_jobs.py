@@ -7,6 +7,7 @@ is taken once, whoever came to it.
 import uuid
 import warnings
 from collections import deque
+from collections.abc import Iterable
 from concurrent.futures import CancelledError, Future, wait
 from contextlib import suppress
 from pathlib import Path
@@ -16,19 +17,17 @@ from typing import TYPE_CHECKING, Any
 
 from mc_nested.errors import RunError
 from mc_nested.studies.job import Job
-from mc_nested.workers.cluster.cluster_workers import ClusterWorkers
 from mc_nested.workers.cluster.job_task import (
     GAME,
-    Reported,
     Trained,
     cancel,
     in_words,
     landed_from,
+    own_versions,
     packed,
     stop_training,
     train_on_worker,
 )
-from mc_nested.workers.cluster.versions import own_versions
 from mc_nested.workers.executor import JobEnded, JobReport
 
 if TYPE_CHECKING:  # the cluster extra's
@@ -138,11 +137,12 @@ class DaskJobs:
         trained.add_done_callback(lambda done: self._land(job, folder, done, landed, tries - 1))
 
     def _hear(self, event: tuple[float, dict[str, Any]]) -> None:
-        said = Reported(**event[1])
+        said = dict(event[1])
+        worker, report = said.pop("worker"), JobReport(**said)
         with self._lock:
-            if not self._futures[said.job].done():
-                self._seen.begins(said.job, said.worker)
-                self._reported.put(JobReport(said.job, said.episodes, said.scores, said.updates))
+            if not self._futures[report.job].done():
+                self._seen.begins(report.job, worker)
+                self._reported.put(report)
 
     def _hear_of_workers(self, event: tuple[float, dict[str, Any]]) -> None:
         with self._lock:
@@ -190,3 +190,60 @@ def workers_that_train(client: "Client") -> list[str]:
     """Return the addresses of a scheduler's workers, but for games."""
     workers = client.scheduler_info()["workers"]
     return [address for address, each in workers.items() if GAME not in each["resources"]]
+
+
+class ClusterWorkers:
+    """Which workers of one study train which job, and which were lost, by their scheduler's events.
+
+    Args:
+        workers: the addresses of those that are there at the beginning.
+    """
+
+    def __init__(self, workers: Iterable[str]) -> None:
+        self._workers = set(workers)
+        self._trained_by: dict[str, str] = {}
+        self._lost_workers = self._lost_jobs = 0
+
+    @property
+    def count(self) -> int:
+        """How many workers there are."""
+        return len(self._workers)
+
+    def trains(self, job: str) -> bool:
+        """Return whether one of them trains the job now."""
+        return job in self._trained_by
+
+    def begins(self, job: str, worker: str) -> None:
+        """Note that the worker trains the job, since it has told of it."""
+        self._trained_by[job] = worker
+
+    def ends(self, job: str) -> None:
+        """Note that nobody trains the job any more."""
+        self._trained_by.pop(job, None)
+
+    def note(self, said: dict[str, Any]) -> None:
+        """Note an event of the scheduler's topic ``all``: a worker came, or went."""
+        if said.get("action") == "add-worker":
+            # A game is a worker, too. It isn't told apart here, and has no jobs to lose.
+            self._workers.add(said["worker"])
+        elif said.get("action") == "remove-worker":
+            self._workers.discard(said["worker"])
+            its_jobs = [name for name, worker in self._trained_by.items() if worker == said["worker"]]
+            for name in its_jobs:
+                del self._trained_by[name]
+            if its_jobs or not said["expected"]:
+                self._lost_workers += 1
+                self._lost_jobs += len(its_jobs)
+
+    def in_words(self, unfinished: int) -> str:
+        """Say in a line how many workers there are, how many ``unfinished`` jobs train or wait, and what was lost."""
+        training = len(self._trained_by)
+        words = f"{counted(self.count, 'worker')}, {counted(training, 'job')} training, {unfinished - training} waiting"
+        if self._lost_workers:
+            words += f"; lost {counted(self._lost_workers, 'worker')}, {counted(self._lost_jobs, 'job')} begun again"
+        return words
+
+
+def counted(count: int, what: str) -> str:
+    """Return ``1 worker``, ``2 workers``."""
+    return f"{count:,} {what}" if count == 1 else f"{count:,} {what}s"

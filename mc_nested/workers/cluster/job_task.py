@@ -1,8 +1,11 @@
 """A job on a cluster's worker: sent there with its files, trained in a folder of its own, and its files brought back.
 
-It runs in a thread of a Dask worker. Only jobs that begin are unpickled: after the versions were compared.
+It runs in a thread of a Dask worker. Only jobs that begin are unpickled: after the versions were compared. They decide
+what a training computes: a worker needs the same as the machine that sends it jobs.
 """
 
+import hashlib
+import importlib.metadata
 import os
 import pickle
 import shutil
@@ -11,23 +14,74 @@ import tempfile
 import time
 from collections.abc import Callable, Mapping
 from concurrent.futures import Future
+from functools import cache
 from pathlib import Path
 from threading import Lock
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from mc_nested.atomic_file import atomic_write, refused_as
+from mc_nested.compiled import ROOT
 from mc_nested.errors import ClusterError, RunError, UserError
 from mc_nested.learn.runs.folder_lock import FILE as LOCK
 from mc_nested.report.tensorboard import FOLDER
 from mc_nested.studies.job import Job
 from mc_nested.studies.outcome import OUTCOME
-from mc_nested.workers.cluster.versions import Versions, differences, own_versions
-from mc_nested.workers.executor import JobEnded, JobReport
+from mc_nested.workers.executor import JobEnded, JobReport, train_job
 from mc_nested.workers.processes import ONE_THREAD_EACH
-from mc_nested.workers.train_job import train_job
 
 if TYPE_CHECKING:
     from distributed import Worker
+
+PACKAGES = ("mc_nested", "sim")
+"""Whose files a job's results depend on."""
+
+LIBRARIES = ("numpy", "numba", "llvmlite", "torch", "distributed")
+"""Whose versions they depend on, or the messages between the machines."""
+
+BESIDE_ANOTHER = ("gymnasium",)
+"""What an agent of another library also depends on."""
+
+MISSING = "missing"
+
+Versions = Mapping[str, str]
+
+
+@cache
+def own_versions(library: str | None = None) -> Versions:
+    """Return this machine's versions, by name: this project's with a hash of its files, and any build's libraries'.
+
+    With those that decide what an agent of another library learns, if one is named.
+    """
+    own = f"{importlib.metadata.version('mc-nested')} ({_hash_of_files(ROOT)})"
+    others = (library, *BESIDE_ANOTHER) if library else ()
+    return {"mc-nested": own, **{name: _version_of(name) for name in (*LIBRARIES, *others)}}
+
+
+def differences(wanted: Versions, own: Versions) -> str:
+    """Return what differs, in words; empty if nothing does."""
+    differing = [name for name in wanted if wanted[name] != own.get(name)]
+    return ", ".join(f"{name} {own.get(name, MISSING)} instead of {wanted[name]}" for name in differing)
+
+
+def _version_of(library: str) -> str:
+    try:
+        return importlib.metadata.version(library).partition("+")[0]
+    except importlib.metadata.PackageNotFoundError:
+        return MISSING
+
+
+def _hash_of_files(root: Path) -> str:
+    """Return a short hash of all that is computed with.
+
+    A file's line ends, which differ between systems, don't count.
+    """
+    digest = hashlib.sha256()
+    for package in PACKAGES:
+        for path in sorted((root / package).rglob("*.py")):
+            digest.update(path.relative_to(root).as_posix().encode())
+            digest.update(path.read_bytes().replace(b"\r\n", b"\n"))
+    return digest.hexdigest()[:8]
+
 
 Files = Mapping[str, bytes]
 """Contents by path, relative to a folder, with slashes."""
@@ -100,16 +154,6 @@ class Trained(NamedTuple):
     events: Files
 
 
-class Reported(NamedTuple):
-    """A report, as it goes through the scheduler: plain data alone; and the address of the worker that trains."""
-
-    job: str
-    episodes: list[int]
-    scores: list[float | None]
-    updates: int
-    worker: str
-
-
 def packed(job: Job, folder: Path) -> bytes:
     """Return the job and the files of its folder, for ``train_on_worker``."""
     return pickle.dumps((job, files_below(folder)))
@@ -136,8 +180,8 @@ def train_on_worker(versions: Versions, library: str | None, package: bytes, top
     is_wanted = wanted_here(worker)
 
     def report(now: JobReport) -> bool:
-        said = Reported(now.job, list(now.episodes), list(now.scores), now.updates, worker.address)
-        worker.log_event(topic, said._asdict())
+        plain = {**vars(now), "episodes": list(now.episodes), "scores": list(now.scores), "worker": worker.address}
+        worker.log_event(topic, plain)
         return topic not in _stopped and is_wanted()
 
     with _one_at_a_time, tempfile.TemporaryDirectory(prefix="mc-nested-", dir=worker.local_directory) as root:

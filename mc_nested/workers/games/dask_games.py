@@ -12,12 +12,10 @@ from typing import TYPE_CHECKING, Any
 from mc_nested.errors import ClusterError
 from mc_nested.learn.games.episode import EpisodePlan
 from mc_nested.workers.cluster.dask_jobs import ALL
-from mc_nested.workers.cluster.job_task import GAME
-from mc_nested.workers.cluster.versions import own_versions
+from mc_nested.workers.cluster.job_task import GAME, own_versions
 from mc_nested.workers.executor import come_to
 from mc_nested.workers.games.game_worker import NAMES
-from mc_nested.workers.games.mailbox import ask_game, packed
-from mc_nested.workers.games.messages import GameAnswer, GameSetup
+from mc_nested.workers.games.mailbox import GameAnswer, GameSetup, ask_game, packed
 
 if TYPE_CHECKING:  # the cluster extra's
     from distributed import Client

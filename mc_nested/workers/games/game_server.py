@@ -16,8 +16,7 @@ from mc_nested.learn.agents import Agent
 from mc_nested.learn.games.episode import PlayedEpisode
 from mc_nested.learn.games.player import play_episode
 from mc_nested.live.action_log import FailureBudget
-from mc_nested.workers.games.mailbox import Mailbox, Request
-from mc_nested.workers.games.messages import GameAnswer, GameSetup
+from mc_nested.workers.games.mailbox import GameAnswer, GameSetup, Mailbox, Request
 
 Say = Callable[[str], None]
 """Shows one line to the player."""

@@ -75,11 +75,6 @@ class GameWorker:
         self._serving = asyncio.run_coroutine_threadsafe(self._stay(worker), self._loop)
         return self
 
-    @property
-    def listens_at(self) -> str:
-        """The address at which its scheduler reaches it."""
-        return str(self._worker.address)
-
     def __exit__(self, *_: object) -> None:
         self._serving.cancel()
         try:

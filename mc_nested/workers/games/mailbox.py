@@ -1,21 +1,65 @@
-"""A mailbox between Dask's thread and the main thread, which owns the game.
+"""What a learner asks of a game, what the game answers, and the mailbox between Dask's thread and the main thread.
 
-Dask's thread compares versions, leaves a request and waits; the main thread takes it and answers. Signals, the panic
-key and everything that releases keys belong to the main thread.
+Dask's thread compares versions, leaves a request and waits; the main thread, which owns the game, takes it and answers.
+Signals, the panic key and everything that releases keys belong to the main thread.
 """
 
 import pickle
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from concurrent.futures import Future, wait
 from dataclasses import dataclass, field
 from queue import Empty, SimpleQueue
 from threading import Event
+from typing import Any, NamedTuple
 
+from mc_nested.arena.scenario import Scenario
 from mc_nested.errors import ClusterError
-from mc_nested.learn.games.episode import EpisodePlan
-from mc_nested.workers.cluster.job_task import wanted_here
-from mc_nested.workers.cluster.versions import Versions, differences, own_versions
-from mc_nested.workers.games.messages import GameAnswer, GameSetup
+from mc_nested.learn.agents import AGENT_SPECS, Agent
+from mc_nested.learn.games.episode import EpisodePlan, PlayedEpisode
+from mc_nested.learn.preset import Preset
+from mc_nested.workers.cluster.job_task import Versions, differences, own_versions, wanted_here
+
+
+@dataclass(frozen=True)
+class GameSetup:
+    """What is played for a training: in which kind of game, what is built, and by whom.
+
+    Args:
+        backend: live, or virtual for games on the virtual client.
+        scenario: what is built.
+        agent: the agent's name.
+        preset: its hyper-parameters.
+        seed: the training's.
+    """
+
+    backend: str
+    scenario: Scenario
+    agent: str
+    preset: Preset
+    seed: int
+
+    def new_agent(self) -> Agent:
+        """Return an agent of one run, to play with the networks that a plan brings."""
+        return Agent(AGENT_SPECS[self.agent], [self.scenario], self.preset, self.seed)
+
+
+class GameAnswer(NamedTuple):
+    """What came of a request.
+
+    Args:
+        episode: as it was played and confirmed; None where none was asked for, or it came to nothing.
+        problem: why it came to nothing, in a line; empty where it didn't, or the game stands ready.
+        is_refusal: whether this game can't play such a setup at all.
+        leaves: whether this game won't play any more.
+        log: what playing took so far, for a summary.
+    """
+
+    episode: PlayedEpisode | None = None
+    problem: str = ""
+    is_refusal: bool = False
+    leaves: bool = False
+    log: Mapping[str, Any] = {}
+
 
 LOOK_EVERY_S = 0.2
 

@@ -10,9 +10,8 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from mc_nested.arena.design import KINDS, SCATTERED
+from mc_nested.arena.design import KINDS, SCATTERED, random_scenario
 from mc_nested.arena.env import ArenaEnv
-from mc_nested.arena.random_designs import random_scenario
 from mc_nested.arena.scenario import Scenario
 from mc_nested.arena.scenario_file import load_scenario
 from mc_nested.arena.vector import ArenaVectorEnv

@@ -8,8 +8,8 @@ import pytest
 
 from mc_nested.arena.action import Action, Cell
 from mc_nested.arena.builder import build
+from mc_nested.arena.design import random_scenario
 from mc_nested.arena.env import ArenaEnv
-from mc_nested.arena.random_designs import random_scenario
 from mc_nested.arena.scenario_file import load_scenario, shipped_scenarios
 from mc_nested.arrays import Bools, Float32s
 from mc_nested.learn.dqn.states import NONE, WANTED, Sees

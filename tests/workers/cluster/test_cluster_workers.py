@@ -1,6 +1,6 @@
 """The workers of a cluster and the jobs that they train, by the scheduler's events."""
 
-from mc_nested.workers.cluster.cluster_workers import ClusterWorkers
+from mc_nested.workers.cluster.dask_jobs import ClusterWorkers
 
 ONE, TWO = "tcp://127.0.0.1:1", "tcp://127.0.0.1:2"
 

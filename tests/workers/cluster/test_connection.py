@@ -101,9 +101,10 @@ def test_the_scheduler_lets_nobody_in_without_a_certificate(secured: str, folder
 
 def test_game_refuses_a_peer_without_a_certificate_of_its_authority(secured: str, folder: Path) -> None:
     with GameWorker(SchedulerAddress(secured, folder / "own" / "pc"), "pc", lambda _: None) as game:
-        assert is_let_in(game.listens_at, folder / "own" / "learner", certificate=True)
-        assert not is_let_in(game.listens_at, folder / "own" / "learner", certificate=False)
-        assert not is_let_in(game.listens_at, folder / "other" / "pc", certificate=True)
+        address = str(game._worker.address)
+        assert is_let_in(address, folder / "own" / "learner", certificate=True)
+        assert not is_let_in(address, folder / "own" / "learner", certificate=False)
+        assert not is_let_in(address, folder / "other" / "pc", certificate=True)
 
 
 def test_a_client_with_keys_refuses_a_scheduler_without_tls(open_to_all: SchedulerAddress, folder: Path) -> None:

@@ -20,9 +20,8 @@ from mc_nested.workers.cluster import dask_jobs
 from mc_nested.workers.cluster.address import SchedulerAddress
 from mc_nested.workers.cluster.connection import connected
 from mc_nested.workers.cluster.dask_jobs import MOST_TRIES, DaskJobs
-from mc_nested.workers.cluster.versions import own_versions
-from mc_nested.workers.executor import JobEnded, JobReport, train_jobs
-from mc_nested.workers.train_job import train_job
+from mc_nested.workers.cluster.job_task import own_versions
+from mc_nested.workers.executor import JobEnded, JobReport, train_job, train_jobs
 from tests.dask_fixture import LEFTOVERS, leftovers
 from tests.learn.made_experiments import DOT, one_job
 from tests.workers.cluster.dask_programs import scheduler, worker

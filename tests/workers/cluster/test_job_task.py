@@ -23,12 +23,12 @@ from mc_nested.workers.cluster.job_task import (
     in_words,
     land,
     landed_from,
+    own_versions,
     packed,
     stop_training,
     train_on_worker,
     write_below,
 )
-from mc_nested.workers.cluster.versions import own_versions
 from mc_nested.workers.executor import JobEnded
 from tests.dask_fixture import LEFTOVERS, leftovers
 from tests.learn.made_experiments import DOT, one_job

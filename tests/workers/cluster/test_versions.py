@@ -4,8 +4,8 @@ from pathlib import Path
 
 import pytest
 
-from mc_nested.workers.cluster import versions
-from mc_nested.workers.cluster.versions import LIBRARIES, differences, own_versions
+from mc_nested.workers.cluster import job_task
+from mc_nested.workers.cluster.job_task import LIBRARIES, differences, own_versions
 
 
 def test_own_versions_do_not_differ_from_themselves() -> None:
@@ -27,18 +27,18 @@ def test_differences_name_each_library_with_both_versions() -> None:
 
 
 def test_any_change_of_a_file_counts_except_its_line_endings(tmp_path: Path) -> None:
-    for package in versions.PACKAGES:
+    for package in job_task.PACKAGES:
         (tmp_path / package).mkdir()
-    file = tmp_path / versions.PACKAGES[0] / "a.py"
+    file = tmp_path / job_task.PACKAGES[0] / "a.py"
     file.write_bytes(b"x = 1\ny = 2\n")
-    before = versions._hash_of_files(tmp_path)
+    before = job_task._hash_of_files(tmp_path)
     file.write_bytes(b"x = 1\r\ny = 2\r\n")
-    assert versions._hash_of_files(tmp_path) == before
+    assert job_task._hash_of_files(tmp_path) == before
     file.write_bytes(b"x = 1\ny = 3\n")
-    assert versions._hash_of_files(tmp_path) != before
+    assert job_task._hash_of_files(tmp_path) != before
     file.rename(file.with_name("b.py"))
     file.with_name("b.py").write_bytes(b"x = 1\ny = 2\n")
-    assert versions._hash_of_files(tmp_path) != before
+    assert job_task._hash_of_files(tmp_path) != before
 
 
 @pytest.mark.parametrize("name", LIBRARIES)

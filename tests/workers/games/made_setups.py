@@ -3,7 +3,7 @@
 from mc_nested.learn.agents import AGENT_SPECS, Agent
 from mc_nested.learn.games.games_trainer import GamesTrainer
 from mc_nested.learn.preset import load_preset
-from mc_nested.workers.games.messages import GameSetup
+from mc_nested.workers.games.mailbox import GameSetup
 from tests.learn.made_experiments import DOT
 
 SETUP = GameSetup("virtual", DOT, "nested", load_preset("model-based"), seed=3)

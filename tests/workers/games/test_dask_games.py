@@ -18,13 +18,12 @@ from mc_nested.workers.cluster import connection
 from mc_nested.workers.cluster.address import SchedulerAddress
 from mc_nested.workers.cluster.connection import connected
 from mc_nested.workers.cluster.dask_jobs import DaskJobs, workers_that_train
-from mc_nested.workers.cluster.versions import own_versions
+from mc_nested.workers.cluster.job_task import own_versions
 from mc_nested.workers.games import dask_games, game_worker
 from mc_nested.workers.games import mailbox as mailboxes
 from mc_nested.workers.games.dask_games import Answered, DaskGames, GameEvent, Joined, Left, NameTaken, Unreachable
 from mc_nested.workers.games.game_worker import LOST, GameWorker
-from mc_nested.workers.games.mailbox import Mailbox, Request
-from mc_nested.workers.games.messages import GameAnswer
+from mc_nested.workers.games.mailbox import GameAnswer, Mailbox, Request
 from tests.dask_fixture import LEFTOVERS, leftovers
 from tests.learn.made_experiments import DOT, one_job
 from tests.workers.cluster.dask_programs import scheduler, worker

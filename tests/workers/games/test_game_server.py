@@ -13,8 +13,7 @@ from mc_nested.arena.vector import NO_ACTION, ArenaVectorEnv
 from mc_nested.errors import DesktopError, LiveError, NotConfirmedError, ProfileError, StoppedError
 from mc_nested.learn.games.episode import EpisodePlan
 from mc_nested.workers.games.game_server import GameServer, OpenGame
-from mc_nested.workers.games.mailbox import Mailbox, Request
-from mc_nested.workers.games.messages import GameAnswer, GameSetup
+from mc_nested.workers.games.mailbox import GameAnswer, GameSetup, Mailbox, Request
 from sim.virtual_games import VirtualPlay, open_virtual_games
 from tests.workers.games.made_setups import SETUP, new_trainer
 

@@ -5,8 +5,7 @@ import threading
 import pytest
 
 from mc_nested.errors import ClusterError
-from mc_nested.workers.games.mailbox import CLOSED, Mailbox
-from mc_nested.workers.games.messages import GameAnswer
+from mc_nested.workers.games.mailbox import CLOSED, GameAnswer, Mailbox
 from tests.workers.games.made_setups import SETUP
 
 

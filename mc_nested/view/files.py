@@ -1,18 +1,24 @@
-"""A run's status as files: now.json is its status now, history.jsonl its earlier ones, coarser the longer it lasts.
+"""What a run and its views write for each other, in the folder ``view`` of the run.
 
-They lie in the folder ``view`` of a run. A reader sees either the old status or the new one, never a half. A scrubber
-is at one moment of the history.
+A run's status: now.json is its status now, history.jsonl its earlier ones, coarser the longer it lasts. A reader sees
+either the old status or the new one, never a half. A scrubber is at one moment of the history.
+
+What a person asks of a run through a view: pause, stop, the answer to a question. Each is a file of its own, so no
+request can overwrite another, whatever several views ask at once. A pause lasts while somebody looks: a view that wants
+it renews its file, and one that nobody renews is over.
 """
 
 import contextlib
 import time
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import TypeVar
 
-from pydantic import ValidationError
+from pydantic import BaseModel, ConfigDict, ValidationError
 from rich.text import Text
 
+from mc_nested.atomic_file import atomic_write
 from mc_nested.errors import RunError
 from mc_nested.learn.runs.folder_kind import VIEW, VIEW_FILES
 from mc_nested.learn.runs.folder_lock import holder_of
@@ -29,7 +35,10 @@ KEEP_EVERY_S = 0.3
 """Seconds between two statuses of a history, while it is short."""
 
 REPLACED_WITHIN_S = 1.0
-"""Longer than it takes to replace a small file: who may not read it for as long may not read it at all."""
+"""Longer than it takes to read or to replace a small file: who may not for as long may not at all."""
+
+
+Done = TypeVar("Done")
 
 
 class History:
@@ -97,7 +106,7 @@ def status_now(folder: Path) -> Status:
     """Return the status of a run; raise RunError if there is none, or it can't be read."""
     path = folder / FOLDER / NOW
     try:
-        return _status_of(_read(path), path)
+        return _status_of(_patiently(path.read_bytes), path)
     except PermissionError as error:
         raise RunError(f"{path}: can't be read, {error.strerror}: let this account read it") from error
     except (FileNotFoundError, NotADirectoryError) as error:
@@ -127,14 +136,14 @@ def remove_status(folder: Path) -> None:
         path.rmdir()
 
 
-def _read(path: Path) -> bytes:
-    """Read all of a file that another process replaces again and again: Windows refuses to open it in that moment."""
+def _patiently(do: Callable[[], Done]) -> Done:
+    """Do what Windows refuses in the moments in which another process reads the file, or replaces it."""
     deadline = time.monotonic() + REPLACED_WITHIN_S
     while time.monotonic() < deadline:
         with contextlib.suppress(PermissionError):
-            return path.read_bytes()
+            return do()
         time.sleep(0.01)
-    return path.read_bytes()
+    return do()
 
 
 def _lines(path: Path) -> list[str]:
@@ -186,3 +195,88 @@ class Scrubber:
         room = max(1, width - len(first) - len(last) - 2)
         mark = self.place * (room - 1) // max(1, len(self.history) - 1)
         return Text.assemble(f"{first} ", ("━" * mark, "cyan"), ("●", "bold cyan"), "─" * (room - 1 - mark), f" {last}")
+
+
+PAUSE, STOP, ANSWER = "pause.request", "stop.request", "answer.request"
+
+RENEWED_S = 5.0
+"""Seconds after which a pause that nobody renewed is over: a view renews it three times a second."""
+
+
+class YesOrNo(BaseModel):
+    """Yes or no to the question of that number alone."""
+
+    model_config = ConfigDict(frozen=True)
+
+    number: int
+    is_yes: bool
+
+
+def ask_pause(folder: Path) -> None:
+    """Ask the run in a folder to pause. Raise OSError if nothing can be written there."""
+    (folder / FOLDER / PAUSE).touch()
+
+
+def renew_pause(folder: Path) -> bool:
+    """Say that somebody still wants the pause; False where somebody asked to go on meanwhile."""
+    path = folder / FOLDER / PAUSE
+    if not path.exists():
+        return False
+    with contextlib.suppress(OSError):
+        path.touch()
+    return True
+
+
+def ask_to_go_on(folder: Path) -> None:
+    """Ask the run to go on. Raise OSError if the file can't be removed."""
+    (folder / FOLDER / PAUSE).unlink(missing_ok=True)
+
+
+def ask_to_stop(folder: Path) -> None:
+    """Ask the run to stop: that can't be taken back. Raise OSError if nothing can be written there."""
+    (folder / FOLDER / STOP).touch()
+
+
+def give_answer(folder: Path, answer: YesOrNo) -> None:
+    """Answer the run's question. Raise OSError if nothing can be written there."""
+
+    def write() -> None:
+        with atomic_write(folder / FOLDER / ANSWER) as path:
+            path.write_text(answer.model_dump_json(), encoding="utf-8")
+
+    _patiently(write)
+
+
+class Requests:
+    """What is asked of the run in a folder; at first, nothing: what was asked of an earlier run is forgotten."""
+
+    def __init__(self, folder: Path, clock: Callable[[], float] = time.monotonic) -> None:
+        self._folder = folder / FOLDER
+        self._clock = clock
+        self._renewed: tuple[int, float] | None = None
+        for name in (PAUSE, STOP, ANSWER):
+            with contextlib.suppress(OSError):
+                (self._folder / name).unlink(missing_ok=True)
+
+    def is_pause_asked(self) -> bool:
+        """Return whether somebody wants a pause now."""
+        try:
+            at = (self._folder / PAUSE).stat().st_mtime_ns
+        except OSError:
+            self._renewed = None
+            return False
+        if self._renewed is None or self._renewed[0] != at:
+            self._renewed = at, self._clock()
+        return self._clock() - self._renewed[1] < RENEWED_S
+
+    def is_stop_asked(self) -> bool:
+        """Return whether somebody asked to stop."""
+        return (self._folder / STOP).exists()
+
+    def answer_to(self, number: int) -> bool | None:
+        """Return the answer to that question; None where there is none yet."""
+        try:
+            answer = YesOrNo.model_validate_json((self._folder / ANSWER).read_bytes())
+        except (OSError, ValidationError):
+            return None
+        return answer.is_yes if answer.number == number else None
