@@ -18,8 +18,7 @@ from mc_nested.live.vision.debug_screen import read_lines, read_position
 from mc_nested.live.vision.fact_lines import VALUES
 from mc_nested.live.vision.font import Font
 from mc_nested.live.vision.glyph_grid import GLYPH_ROWS, GlyphGrid
-from mc_nested.live.vision.layout import Overlay
-from mc_nested.live.vision.overlay import LAYOUTS
+from mc_nested.live.vision.layout import LAYOUTS, Overlay
 from mc_nested.live.vision.screen_lines import ScreenLines
 from mc_nested.live.vision.screen_reader import Look
 from mc_nested.live.vision.text_lines import columns_of, ink_of

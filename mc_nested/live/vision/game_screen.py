@@ -8,11 +8,10 @@ from mc_nested.live.model.versions import draws_text_over_menus
 from mc_nested.live.vision.covered_label import pause_region, shows_pause
 from mc_nested.live.vision.font import SPACE, Font
 from mc_nested.live.vision.glyph_grid import GLYPH_ROWS, GlyphGrid
-from mc_nested.live.vision.layout import INK_SPREAD, WHITE, Overlay, Scales, largest_gui_scale
+from mc_nested.live.vision.layout import INK_SPREAD, STANDIN, WHITE, Overlay, Scales, largest_gui_scale
 from mc_nested.live.vision.menu_labels import MenuButton, MenuLabels
 from mc_nested.live.vision.overlay import SCALES, find_overlay
 from mc_nested.live.vision.screen_reader import Look, ScreenReader
-from mc_nested.live.vision.standin import STANDIN
 from mc_nested.live.vision.window_bottom import (
     FIRST_COLUMNS,
     HotbarLook,

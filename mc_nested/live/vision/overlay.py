@@ -5,7 +5,6 @@ column.
 """
 
 import re
-from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -15,8 +14,7 @@ from mc_nested.live.devices import Frame
 from mc_nested.live.vision.fact_lines import fact_from
 from mc_nested.live.vision.font import Font
 from mc_nested.live.vision.glyph_grid import GlyphGrid, GridPosition
-from mc_nested.live.vision.layout import BOXES, INK_SPREAD, VANILLA, WHITE, Colour, LayoutName, Overlay, ScreenLayout
-from mc_nested.live.vision.standin import STANDIN
+from mc_nested.live.vision.layout import BOXES, INK_SPREAD, STANDIN, VANILLA, WHITE, Colour, Overlay
 from mc_nested.live.vision.text_lines import UNKNOWN, Line, ink_of, is_text, positions_of
 
 SCALES = (8, 7, 6, 5, 4, 3, 2, 1)
@@ -162,6 +160,3 @@ def _known_beside(dots: GlyphGrid, font: Font, overlay: Overlay, position: GridP
     """Return how many of the lines just above and below are text at this layout's pitch."""
     row, column = position
     return sum(is_text(dots, font, overlay, (near, column)) for near in (row - overlay.pitch, row + overlay.pitch))
-
-
-LAYOUTS: Mapping[LayoutName, ScreenLayout] = {layout.name: layout for layout in (VANILLA, BOXES, STANDIN)}
