@@ -12,8 +12,7 @@ from mc_nested.live.connection import GameConnection
 from mc_nested.live.input.input_controller import InputController
 from mc_nested.live.journal import Journal
 from mc_nested.live.live_game import LiveGame
-from mc_nested.live.profile.arena import Arena, size_for
-from mc_nested.live.profile.built_arena import FLOOR, border_block, border_of, floor_of
+from mc_nested.live.profile.arena import FLOOR, Arena, border_block, border_of, floor_of, size_for
 from mc_nested.live.profile.tables import BodyTable, GameVersion, Profile
 from mc_nested.live.vision.font import Font, font_of
 from mc_nested.live.vision.game_screen import WindowScreen

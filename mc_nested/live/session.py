@@ -12,6 +12,7 @@ from mc_nested.arena.scenario_file import table_of
 from mc_nested.errors import RecordingError
 from mc_nested.live.connection import GameConnection, prepare_keyboard
 from mc_nested.live.desktop import open_desktop
+from mc_nested.live.desktop.panic import open_panic_switch
 from mc_nested.live.devices import SWITCH_KEYS, Devices, Display
 from mc_nested.live.input.input_controller import InputController
 from mc_nested.live.input.stops import Stop, watched
@@ -29,14 +30,6 @@ from mc_nested.live.vision.layout import Scales
 
 OFF = "off"
 """Instead of a folder for the recording: nothing is recorded."""
-
-
-def open_desktops_panic_switch(key: str, stop: Stop) -> AbstractContextManager[None]:
-    """Open the panic switch of this desktop."""
-    # Imported here: importing it needs a display, which is open only now.
-    from mc_nested.live.desktop.panic import open_panic_switch
-
-    return open_panic_switch(key, stop)
 
 
 @dataclass(frozen=True)
@@ -66,7 +59,7 @@ class Opening:
     journal: Journal | None = None
     evidence: Path | None = None
     open_devices: Callable[[str], AbstractContextManager[Devices]] = open_desktop
-    open_panic_switch: Callable[[str, Stop], AbstractContextManager[None]] = open_desktops_panic_switch
+    open_panic_switch: Callable[[str, Stop], AbstractContextManager[None]] = open_panic_switch
 
     def __post_init__(self) -> None:
         folder = self._recordings_folder

@@ -3,9 +3,10 @@
 A screen is left by its labels, else by the recorded points.
 """
 
-from mc_nested.errors import LiveError, NotInFrontError
+from mc_nested.errors import LiveError
 from mc_nested.live.connection import GameConnection
-from mc_nested.live.devices import SWITCH_KEYS, Deadline
+from mc_nested.live.devices import Deadline
+from mc_nested.live.input.input_controller import not_in_front_error
 from mc_nested.live.menus.click_points import ClickPoints, click_on
 from mc_nested.live.menus.screens import (
     LABELS,
@@ -233,10 +234,7 @@ class Recovery:
             self._journal.note("waits", on=FRONT)
         while not self._display.is_in_front():
             if deadline.has_passed:
-                raise NotInFrontError(
-                    "the game's window is not in front, so no key is pressed: "
-                    f"switch to it with {SWITCH_KEYS}, not by a click, then start again"
-                )
+                raise not_in_front_error()
             self._sleep(EFFECT_S)
 
     def _sleep(self, seconds: float) -> None:

@@ -48,10 +48,7 @@ def kept_recordings() -> list[Path]:
     folder = recordings_folder()
     if not folder.is_dir():
         return []
-    found = [
-        each for each in folder.iterdir() if each.suffix == SUFFIX or (each.is_dir() and any(each.glob(f"*{SUFFIX}")))
-    ]
-    return sorted(found, key=lambda each: (each.stat().st_mtime_ns, each.name))
+    return sorted(filter(is_recording, folder.iterdir()), key=lambda each: (each.stat().st_mtime_ns, each.name))
 
 
 def recorder_opener(
