@@ -9,13 +9,12 @@ from typing import Annotated
 import typer
 
 from calibration.calibrate_all import calibrate_all as calibrate_every_step
+from calibration.calibrate_all import registered_steps
 from calibration.context import StepResult
 from calibration.doctor.check import Check
 from calibration.doctor.examination import examine
 from calibration.installation.folders import System
-from calibration.registry import registered_steps
-from calibration.report.page import TITLES
-from calibration.report.write import report_path, write_report
+from calibration.report.page import TITLES, report_path, write_report
 from mc_nested.cli.calibrate_steps import FontOption, arena, calibrating, clicks, font, walk
 from mc_nested.cli.options import (
     DEFAULT_PROFILE,
