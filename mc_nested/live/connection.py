@@ -6,7 +6,7 @@ from collections.abc import Callable
 from mc_nested.errors import ProfileError
 from mc_nested.live.devices import Devices
 from mc_nested.live.input.input_controller import InputController
-from mc_nested.live.journal import Journal, NoJournal
+from mc_nested.live.journal import Journal, Journals
 from mc_nested.live.profile.fingerprint import check_single_player, game_in
 from mc_nested.live.profile.tables import Profile
 from mc_nested.live.vision.chat_region import ChatLines
@@ -42,7 +42,7 @@ class GameConnection:
         self.devices = devices
         self.controller = controller
         self.is_server_allowed = is_server_allowed
-        self.journal = journal or NoJournal()
+        self.journal = journal or Journals()
         self.chat_lines = chat_lines or ChatLines()
         self._screen = on_screen(screen) if screen else None
         if self._screen is not None:

@@ -1,8 +1,9 @@
 """Open a live game: its window, the connection to it, and the Game that is played there, from one value, an Opening."""
 
 from collections.abc import Callable, Iterator
-from contextlib import AbstractContextManager, contextmanager
+from contextlib import AbstractContextManager, contextmanager, nullcontext
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 
 import tomlkit
@@ -24,7 +25,8 @@ from mc_nested.live.model.versions import later_version_line
 from mc_nested.live.profile.fingerprint import Fingerprint, check_fit, game_in
 from mc_nested.live.profile.store import load_profile, profile_path
 from mc_nested.live.profile.tables import Profile
-from mc_nested.live.recording.run_recorder import OpenRecorder, no_recorder, recorder_opener
+from mc_nested.live.recording.recorder import Recorder
+from mc_nested.live.recording.run_recorder import open_recorder
 from mc_nested.live.vision.font import load_font
 from mc_nested.live.vision.layout import Scales
 
@@ -77,10 +79,9 @@ class Opening:
         Raises:
             DesktopError: there is no such window, or this keyboard lacks one of the profile's keys.
         """
-        recorder = self._recorder(scenario)
-        with self.open_devices(profile.window.title) as window, recorder(profile, window) as recording:
+        with self.open_devices(profile.window.title) as window, self._recorder(profile, window, scenario) as recorder:
             prepare_keyboard(profile, window)
-            devices = recording.devices(window)
+            devices = recorder.devices(window) if recorder else window
             if line := later_version_line(game_in(devices.display.title(), profile.game).version):
                 self.say(line)
             controller = InputController(devices, profile.input)
@@ -88,23 +89,25 @@ class Opening:
                 devices,
                 controller,
                 is_server_allowed=self.is_server_allowed,
-                journal=Journals(*([self.journal] if self.journal else []), recording),
-                on_screen=recording.screen,
+                journal=Journals(*(each for each in (self.journal, recorder) if each)),
+                on_screen=recorder.screen if recorder else lambda screen: screen,
             )
-            switch = self.open_panic_switch
-            yield OpenWindow(connection, lambda: switch(profile.keys.panic, recording.stopping(controller.stop)))
+            stop = recorder.stopping(controller.stop) if recorder else controller.stop
+            yield OpenWindow(connection, partial(self.open_panic_switch, profile.keys.panic, stop))
 
     @property
     def _recordings_folder(self) -> Path | None:
         return None if self.record in (None, OFF) else Path(self.record)
 
-    def _recorder(self, scenario: Scenario | None) -> OpenRecorder:
+    def _recorder(
+        self, profile: Profile, window: Devices, scenario: Scenario | None
+    ) -> AbstractContextManager[Recorder | None]:
         if self.record == OFF:
-            return no_recorder
+            return nullcontext()
         facts = {"is_server_allowed": str(self.is_server_allowed).lower()}
         if scenario is not None:
             facts["scenario"] = tomlkit.dumps(table_of(scenario).model_dump(exclude_none=True))
-        return recorder_opener(self._recordings_folder, self.what, self.say, facts)
+        return open_recorder(self._recordings_folder, self.what, self.say, profile, window, facts)
 
 
 @dataclass(frozen=True)

@@ -46,11 +46,7 @@ _EnumWindowsCallback = ctypes.WINFUNCTYPE(wintypes.BOOL, wintypes.HWND, wintypes
 
 @contextmanager
 def open_window(title: str) -> Iterator["Win32Window"]:
-    """Yield the one window whose title matches the regular expression ``title``.
-
-    Raises:
-        DesktopError: no window of that title or several, or a minimised one.
-    """
+    """Yield the one window whose title matches, as ``DesktopSystem.open_window``."""
     # Fails harmlessly where the process has chosen its awareness already; pyautogui would choose a weaker one.
     _user32.SetProcessDpiAwarenessContext(ctypes.c_void_p(_PER_MONITOR_AWARE_V2))
     windows = titled_windows()

@@ -33,11 +33,7 @@ from mc_nested.live.devices import DesktopArea, Frame
 
 @contextmanager
 def open_window(title: str) -> Iterator["X11Window"]:
-    """Yield the one window whose title matches the regular expression ``title``, for as long as the context lasts.
-
-    Raises:
-        DesktopError: no display, no window of that title on the X server or several, or a minimised one.
-    """
+    """Yield the one window whose title matches, as ``DesktopSystem.open_window``."""
     display = _connect()
     try:
         windows = _titled_windows(display)
