@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from mc_nested.live.devices import Frame
 from mc_nested.live.vision.fact_lines import fact_from
 from mc_nested.live.vision.font import Font
-from mc_nested.live.vision.glyph_grid import GlyphGrid, GridPosition
+from mc_nested.live.vision.glyph_grid import GlyphGrid, GridPosition, dots_of
 from mc_nested.live.vision.layout import BOXES, INK_SPREAD, STANDIN, VANILLA, WHITE, Colour, Overlay
 from mc_nested.live.vision.text_lines import UNKNOWN, Line, ink_of, is_text, positions_of
 
@@ -150,9 +150,8 @@ def version_in(text: str) -> tuple[int, ...] | None:
 def _ink_of(dots: GlyphGrid, font: Font, label: str, position: GridPosition) -> tuple[Colour, NDArray[np.bool_]]:
     """Return the colour of a label that stands there, and which of its dots (8, columns) are ink."""
     row, column = position
-    glyphs = np.frombuffer(font.columns(label).rstrip(b"\0"), np.uint8)
-    ink = np.unpackbits(glyphs[np.newaxis], axis=0, bitorder="little").astype(bool)
-    blue, green, red = np.median(dots.strip(row, column, column + len(glyphs))[ink], axis=0).astype(int)
+    ink = dots_of(font.columns(label).rstrip(b"\0"))
+    blue, green, red = np.median(dots.strip(row, column, column + ink.shape[1])[ink], axis=0).astype(int)
     return (int(red), int(green), int(blue)), ink
 
 
