@@ -35,7 +35,7 @@ from mc_nested.live.devices import Devices
 from mc_nested.live.menus.recovery import Recovery
 from mc_nested.live.model.versions import version_in
 from mc_nested.live.profile.arena import near_middle
-from mc_nested.live.profile.fingerprint import game_in
+from mc_nested.live.profile.fingerprint import game_in, size_text
 from mc_nested.live.profile.tables import CalibratedTable, Profile
 
 StepFunction = Callable[[CalibrationContext, Profile], StepResult]
@@ -132,8 +132,9 @@ def run_steps(
         finally:
             context.controller.release_all()
         if (now := display.size()) != size:
-            was, is_now = (f"{each[0]} x {each[1]}" for each in (size, now))
-            resized = f"the window was {was} pixels and is {is_now}: leave it as it is, and start again"
+            resized = (
+                f"the window was {size_text(size)} pixels and is {size_text(now)}: leave it as it is, and start again"
+            )
             raise _named(step, DesktopError(resized))
         results.append(result)
         profile = result.profile

@@ -151,11 +151,6 @@ class VirtualClient:
         """The GUI scale that the window gets."""
         return self.scales.gui
 
-    @property
-    def holds_pointer(self) -> bool:
-        """Whether the game keeps the mouse to itself: its world is played, in front."""
-        return self.window.is_in_front and self.game.screen == "world"
-
     def new_layers(self) -> ViewLayers:
         """Return the layers that draw a view's GUI, in the window's present size."""
         settings = self.settings

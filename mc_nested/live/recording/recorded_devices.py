@@ -10,7 +10,7 @@ from typing import Generic, ParamSpec, TypeVar
 from mc_nested.errors import McNestedError
 from mc_nested.live.devices import Button, Clipboard, Clock, Devices, Display, Frame, Keyboard, Pointer, Region
 from mc_nested.live.model.reading import Reading
-from mc_nested.live.recording.tape import Tape
+from mc_nested.live.recording.format import Tape
 from mc_nested.live.vision.game_screen import Labels, WindowScreen
 from mc_nested.live.vision.layout import Scales
 from mc_nested.live.vision.menu_labels import MenuButton

@@ -15,10 +15,9 @@ from types import TracebackType
 from mc_nested.live.devices import Devices
 from mc_nested.live.journal import Fact, NoteKind
 from mc_nested.live.recording.call_encoder import CallEncoder, KeptPicture
-from mc_nested.live.recording.format import SUFFIX, event_of
+from mc_nested.live.recording.format import SUFFIX, Tape, event_of
 from mc_nested.live.recording.recorded_devices import RecordedScreen, recorded
 from mc_nested.live.recording.recording_file import PartWriter, Timed
-from mc_nested.live.recording.tape import Tape
 from mc_nested.live.vision.game_screen import GameScreen, WindowScreen
 
 Stop = Callable[[str], None]

@@ -2,7 +2,7 @@
 
 from typing import Protocol
 
-from mc_nested.live.devices import Display, Frame, Region
+from mc_nested.live.devices import Display, Frame
 from mc_nested.live.model.reading import Reading
 from mc_nested.live.model.versions import draws_text_over_menus
 from mc_nested.live.vision.covered_label import pause_region, shows_pause
@@ -198,7 +198,7 @@ class WindowScreen:
         frame = self._display.grab()
         for scale in range(largest_gui_scale(size) + 1, 0, -1):
             region = bottom_region(size, scale)
-            dots = dots_in(_part(frame, region), scale)
+            dots = dots_in(frame[region.slices], scale)
             if look := hotbar_look(dots, -(-size[1] // scale)):
                 self._gui = size, scale
                 return look, dots
@@ -219,7 +219,3 @@ class WindowScreen:
     def _typed_line(self, columns: int | None = None) -> Frame:
         scale = self.gui_scale()
         return dots_in(self._display.grab(typed_line_region(self._display.size(), scale, columns)), scale)
-
-
-def _part(frame: Frame, region: Region) -> Frame:
-    return frame[max(0, region.top) : region.top + region.height, region.left : region.left + max(0, region.width)]
