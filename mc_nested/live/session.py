@@ -3,7 +3,6 @@
 from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager, contextmanager, nullcontext
 from dataclasses import dataclass
-from functools import partial
 from pathlib import Path
 
 import tomlkit
@@ -32,6 +31,10 @@ from mc_nested.live.vision.layout import Scales
 
 OFF = "off"
 """Instead of a folder for the recording: nothing is recorded."""
+
+
+Guard = Callable[[], AbstractContextManager[None]]
+"""While it lasts, a watchdog releases keys that are held too long, and the panic switch stops all input."""
 
 
 @dataclass(frozen=True)
@@ -69,8 +72,10 @@ class Opening:
             raise RecordingError(f"{folder}: holds something already: name a new folder for the recording, or {OFF!r}")
 
     @contextmanager
-    def connection(self, profile: Profile, scenario: Scenario | None = None) -> Iterator["OpenWindow"]:
+    def connection(self, profile: Profile, scenario: Scenario | None = None) -> Iterator[tuple[GameConnection, Guard]]:
         """Open the profile's window, recorded if that is asked for; it isn't read yet, and nothing is pressed.
+
+        Yields the connection to it, and what guards a block in which something is pressed.
 
         Args:
             profile: whose window it is.
@@ -93,7 +98,13 @@ class Opening:
                 on_screen=recorder.screen if recorder else lambda screen: screen,
             )
             stop = recorder.stopping(controller.stop) if recorder else controller.stop
-            yield OpenWindow(connection, partial(self.open_panic_switch, profile.keys.panic, stop))
+
+            @contextmanager
+            def guarded() -> Iterator[None]:
+                with watched(controller), self.open_panic_switch(profile.keys.panic, stop):
+                    yield
+
+            yield connection, guarded
 
     @property
     def _recordings_folder(self) -> Path | None:
@@ -108,20 +119,6 @@ class Opening:
         if scenario is not None:
             facts["scenario"] = tomlkit.dumps(table_of(scenario).model_dump(exclude_none=True))
         return open_recorder(self._recordings_folder, self.what, self.say, profile, window, facts)
-
-
-@dataclass(frozen=True)
-class OpenWindow:
-    """A game's window is open; its panic switch isn't yet."""
-
-    connection: GameConnection
-    panic_switch: Callable[[], AbstractContextManager[None]]
-
-    @contextmanager
-    def guarded(self) -> Iterator[None]:
-        """Guard the block: a watchdog releases keys that are held too long, and the panic switch stops all input."""
-        with watched(self.connection.controller), self.panic_switch():
-            yield
 
 
 @contextmanager
@@ -142,8 +139,8 @@ def open_live_game(scenario: Scenario, opening: Opening) -> Iterator[tuple[LiveG
     profile, say = load_profile(opening.profile), opening.say
     check_fits(scenario, profile, opening.profile)
     load_font(profile.screen.font_path())
-    with opening.connection(profile, scenario) as window:
-        connection = window.connection.for_profile(profile)
+    with opening.connection(profile, scenario) as (unread, guarded):
+        connection = unread.for_profile(profile)
         display = connection.devices.display
         # Checked twice: before anybody has to switch windows, and again once the GUI scale can be read.
         check_fit(profile.calibrated, fingerprint_of(display), opening.profile)
@@ -158,7 +155,7 @@ def open_live_game(scenario: Scenario, opening: Opening) -> Iterator[tuple[LiveG
         check_fit(profile.calibrated, fingerprint_of(display, connection.screen.seen_scales()), opening.profile)
         check_block_is_named(reading, game_in(display.title(), profile.game).version)
         game = LiveGame(scenario, profile, connection, points=points, evidence=opening.evidence)
-        with game, window.guarded():
+        with game, guarded():
             yield game, display
 
 

@@ -8,13 +8,7 @@ from ctypes import wintypes
 from pathlib import PureWindowsPath
 
 from mc_nested.errors import ClipboardError
-from mc_nested.live.desktop.window import (
-    TitledWindow,
-    check_shown,
-    closed_error,
-    game_window,
-    minimised_error,
-)
+from mc_nested.live.desktop.window import TitledWindow, check_shown, closed_error, game_window, minimised_error
 from mc_nested.live.devices import DesktopArea, not_text_error
 
 if sys.platform == "win32":

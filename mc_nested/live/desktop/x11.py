@@ -10,13 +10,7 @@ from Xlib.error import ConnectionClosedError, DisplayError, XauthError, XError
 from Xlib.xobject.drawable import Window
 
 from mc_nested.errors import DesktopError, NoWindowError
-from mc_nested.live.desktop.window import (
-    TitledWindow,
-    check_shown,
-    closed_error,
-    game_window,
-    minimised_error,
-)
+from mc_nested.live.desktop.window import TitledWindow, check_shown, closed_error, game_window, minimised_error
 from mc_nested.live.desktop.x11_clipboard import X11Clipboard
 from mc_nested.live.desktop.xwayland import (
     ALLOW,

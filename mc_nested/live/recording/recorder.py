@@ -13,15 +13,13 @@ from pathlib import Path
 from types import TracebackType
 
 from mc_nested.live.devices import Devices
+from mc_nested.live.input.stops import Stop
 from mc_nested.live.journal import Fact, NoteKind
 from mc_nested.live.recording.call_encoder import CallEncoder, KeptPicture
 from mc_nested.live.recording.format import SUFFIX, Tape, event_of
 from mc_nested.live.recording.recorded_devices import RecordedScreen, recorded
 from mc_nested.live.recording.recording_file import PartWriter, Timed
 from mc_nested.live.vision.game_screen import GameScreen, WindowScreen
-
-Stop = Callable[[str], None]
-
 
 WRITE_EVERY_S = 0.25
 

@@ -18,18 +18,7 @@ from numpy.typing import NDArray
 from mc_nested.live.devices import Frame, Region
 from mc_nested.live.vision.font import Font
 from mc_nested.live.vision.glyph_grid import GLYPH_ROWS, dots_of
-from mc_nested.live.vision.layout import (
-    AQUA,
-    GOLD,
-    GREEN,
-    GREY,
-    INK_SPREAD,
-    LIGHT_PURPLE,
-    PLAIN,
-    RED,
-    YELLOW,
-    Colour,
-)
+from mc_nested.live.vision.layout import AQUA, GOLD, GREEN, GREY, INK_SPREAD, LIGHT_PURPLE, PLAIN, RED, YELLOW, Colour
 from mc_nested.live.vision.text_lines import ink_of
 
 FIRST_COLUMNS = 8
