@@ -10,20 +10,32 @@ import dataclasses
 import datetime
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import Protocol
 
+from calibration.acceptance_test import run_acceptance_test
+from calibration.arena.build import build_arena
+from calibration.arena.mark import check_standing
 from calibration.arena.undo import remove_saved_copy_note, undo_hint_on_error
+from calibration.clicks.find import find_clicks_unattended
 from calibration.context import CalibrationContext, OpenContext, StepResult
+from calibration.cross_check import cross_check
 from calibration.doctor.check import Check, CheckName
+from calibration.font.find import find_font, sources_for, sources_here
+from calibration.font.sources import FontSources
 from calibration.report.findings import save_findings_or_warn
 from calibration.step_profile import starting_profile, write_result
+from calibration.walk.measure import walk
+from mc_nested.arena.action import Cell
+from mc_nested.arena.scenario import DEFAULT_SIZE
 from mc_nested.errors import DesktopError, LiveError, McNestedError, NotInFrontError, StoppedError, UserError
 from mc_nested.live.connection import screen_for
 from mc_nested.live.devices import Devices
 from mc_nested.live.menus.recovery import Recovery
 from mc_nested.live.model.versions import version_in
-from mc_nested.live.profile.fingerprint import game_in
+from mc_nested.live.profile.arena import near_middle
+from mc_nested.live.profile.fingerprint import game_in, size_text
 from mc_nested.live.profile.tables import CalibratedTable, Profile
 
 StepFunction = Callable[[CalibrationContext, Profile], StepResult]
@@ -36,6 +48,30 @@ class CalibrationStep:
     name: str
     run: StepFunction
     is_needed: bool = True
+
+
+def registered_steps(
+    font: Path | None = None,
+    sources: Callable[[str | None], FontSources] = sources_here,
+    *,
+    size: int = DEFAULT_SIZE,
+    standing: Cell | None = None,
+    path: Path | None = None,
+) -> list[CalibrationStep]:
+    """Return all steps. Missing buttons and an unreachable clipboard don't end the run.
+
+    ``font`` and ``sources`` are as in ``font.sources_for``. ``size``, ``standing`` and ``path`` are as in
+    ``build_arena``. UserError as ``check_standing``.
+    """
+    check_standing(near_middle(size) if standing is None else standing, size)
+    return [
+        CalibrationStep("font", lambda opened, own: find_font(opened, own, sources_for(opened, own, font, sources))),
+        CalibrationStep("arena", partial(build_arena, path=path, size=size, standing=standing)),
+        CalibrationStep("walk", walk),
+        CalibrationStep("clicks", find_clicks_unattended, is_needed=False),
+        CalibrationStep("cross-check", cross_check, is_needed=False),
+        CalibrationStep("proof", run_acceptance_test),
+    ]
 
 
 class StepProgress(Protocol):
@@ -96,8 +132,9 @@ def run_steps(
         finally:
             context.controller.release_all()
         if (now := display.size()) != size:
-            was, is_now = (f"{each[0]} x {each[1]}" for each in (size, now))
-            resized = f"the window was {was} pixels and is {is_now}: leave it as it is, and start again"
+            resized = (
+                f"the window was {size_text(size)} pixels and is {size_text(now)}: leave it as it is, and start again"
+            )
             raise _named(step, DesktopError(resized))
         results.append(result)
         profile = result.profile

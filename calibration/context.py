@@ -78,7 +78,7 @@ def context_opener(opening: Opening, ask: Callable[[str], bool]) -> OpenContext:
 
     @contextmanager
     def opened(profile: Profile) -> Iterator[CalibrationContext]:
-        with opening.connection(profile) as window, window.connection as connection, window.guarded():
+        with opening.connection(profile) as (connection, guarded), connection, guarded():
             asks = ask_in_terminal(ask, opening.say, connection.devices)
             yield CalibrationContext(connection, opening.say, asks)
 

@@ -32,7 +32,7 @@ from PIL import Image
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 
-from calibration.report.write import report_path
+from calibration.report.page import report_path
 from mc_nested.arena.scenario_file import load_scenario
 from mc_nested.errors import UserError
 from mc_nested.live.input.signals import signals_as_exit

@@ -2,7 +2,6 @@
 
 from collections.abc import Iterator, Sequence
 from contextlib import ExitStack, contextmanager
-from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -12,13 +11,11 @@ from mc_nested.live.connection import GameConnection
 from mc_nested.live.input.input_controller import InputController
 from mc_nested.live.journal import Journal
 from mc_nested.live.live_game import LiveGame
-from mc_nested.live.profile.arena import Arena, size_for
-from mc_nested.live.profile.built_arena import FLOOR, border_block, border_of, floor_of
+from mc_nested.live.profile.arena import FLOOR, Arena, border_block, border_of, floor_of, size_for
 from mc_nested.live.profile.tables import BodyTable, GameVersion, Profile
-from mc_nested.live.vision.font import Font, font_of
 from mc_nested.live.vision.game_screen import WindowScreen
 from sim.client.client import VirtualClient
-from sim.client.drawing.letters import drawn_atlas
+from sim.client.drawing.letters import drawn_font
 from sim.client.drawing.painter import SEEN
 from sim.client.game.world import VirtualWorld
 
@@ -74,11 +71,11 @@ def open_virtual_games(
 
 
 def _game(scenario: Scenario, seed: int, journal: Journal | None) -> LiveGame:
-    client = VirtualClient(seed=seed, world=SEEN, scale=GUI_SCALE, font=_font())
+    client = VirtualClient(seed=seed, world=SEEN, scale=GUI_SCALE)
     arena = built_arena(client.realm.world, scenario)
     profile = Profile(game=GameVersion(version=client.settings.version), arena=arena, body=BodyTable(pitch=PITCH))
     controller = InputController(client.devices, profile.input)
-    screen = WindowScreen(client.display, _font(), version=client.settings.version)
+    screen = WindowScreen(client.display, drawn_font(), version=client.settings.version)
     return LiveGame(scenario, profile, GameConnection(client.devices, controller, screen, journal=journal))
 
 
@@ -92,8 +89,3 @@ def built_arena(world: VirtualWorld, scenario: Scenario) -> Arena:
     for side in border_of(arena):
         world.fill(*side, border)
     return arena
-
-
-@lru_cache(1)
-def _font() -> Font:
-    return font_of(drawn_atlas())

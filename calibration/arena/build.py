@@ -28,8 +28,7 @@ from mc_nested.live.menus.reset import teleport_command
 from mc_nested.live.menus.wait_for_player import wait_until_standing_still
 from mc_nested.live.model.debug_entries import why_none_is_named
 from mc_nested.live.model.reading import Block
-from mc_nested.live.profile.arena import Arena, near_middle
-from mc_nested.live.profile.built_arena import FLOOR, border_block, box_of
+from mc_nested.live.profile.arena import FLOOR, Arena, border_block, box_of, near_middle
 from mc_nested.live.profile.fingerprint import game_in
 from mc_nested.live.profile.store import save_profile
 from mc_nested.live.profile.tables import Profile

@@ -9,15 +9,15 @@ no answer, the answer is unknown.
 import math
 from dataclasses import dataclass
 
-from calibration.arena.plan import box_at, box_text, copy_positions, is_good_floor, volume
+from calibration.arena.plan import box_at, copy_positions, is_good_floor, volume
 from calibration.command_console import CommandConsole
 from mc_nested.arena.action import Cell
 from mc_nested.errors import UserError
+from mc_nested.live.menus.reset import box_text
 from mc_nested.live.model.coordinates import EYES, turn_between
 from mc_nested.live.model.debug_entries import NONE_NAMED, have_block_named
 from mc_nested.live.model.reading import Block, Reading, Target
-from mc_nested.live.profile.arena import Arena
-from mc_nested.live.profile.built_arena import Box, box_of, floor_of
+from mc_nested.live.profile.arena import Arena, Box, box_of, floor_of
 from mc_nested.live.profile.tables import Profile
 from mc_nested.live.vision.game_screen import GameScreen
 

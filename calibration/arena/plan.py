@@ -2,11 +2,10 @@
 
 from collections.abc import Sequence
 
-from mc_nested.live.menus.reset import clear_command, item_command
+from mc_nested.live.menus.reset import box_text, clear_command, fill_command, item_command
 from mc_nested.live.model.reading import Block
 from mc_nested.live.model.versions import version_numbers
-from mc_nested.live.profile.arena import Arena
-from mc_nested.live.profile.built_arena import FLOOR, Box, border_block, border_of, box_of, floor_of
+from mc_nested.live.profile.arena import FLOOR, Arena, Box, border_block, border_of, box_of, floor_of
 from mc_nested.live.profile.tables import Profile
 
 BAD_FLOORS = (
@@ -52,11 +51,6 @@ def is_good_floor(floor_id: str) -> bool:
     return not any(part in floor_id for part in BAD_FLOORS)
 
 
-def fill_command(box: Box, block: str) -> str:
-    """Fill a box."""
-    return f"/fill {box_text(box)} minecraft:{block}"
-
-
 def copy_command(box: Box, to: Block) -> str:
     """Copy a box to a new lowest corner."""
     return f"/clone {box_text(box)} {' '.join(map(str, to))}"
@@ -83,11 +77,6 @@ def gamerules(version: str) -> tuple[str, ...]:
     if version_numbers(version) >= (1, 21, 11):
         return "advance_time", "advance_weather", "spawn_mobs"
     return "doDaylightCycle", "doWeatherCycle", "doMobSpawning"
-
-
-def box_text(box: Box) -> str:
-    """Return a box as commands write it."""
-    return " ".join(str(part) for corner in box for part in corner)
 
 
 def volume(box: Box) -> int:

@@ -11,17 +11,17 @@ from contextlib import contextmanager
 from pathlib import Path
 
 from calibration.arena.ground_survey import BlockQueries, is_copy_gone
-from calibration.arena.plan import box_at, copy_command, fill_command
+from calibration.arena.plan import box_at, copy_command
 from calibration.command_console import CommandConsole
 from calibration.context import CalibrationContext, OpenContext, StepResult
 from calibration.step_profile import check_writable
 from mc_nested.atomic_file import atomic_write, refused_as
 from mc_nested.errors import McNestedError, NotConfirmedError, ProfileError, UserError
 from mc_nested.live.devices import SWITCH_KEYS
-from mc_nested.live.menus.reset import teleport_command
+from mc_nested.live.menus.reset import fill_command, teleport_command
 from mc_nested.live.menus.wait_for_player import wait_until_standing_still
 from mc_nested.live.model.reading import Block
-from mc_nested.live.profile.built_arena import box_of
+from mc_nested.live.profile.arena import box_of
 from mc_nested.live.profile.store import load_profile, parse_profile, profile_path, save_profile
 from mc_nested.live.profile.tables import Profile
 from mc_nested.toml_file import read_toml_text

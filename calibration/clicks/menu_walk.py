@@ -21,7 +21,7 @@ from mc_nested.live.profile.fingerprint import game_in
 from mc_nested.live.profile.tables import Profile
 from mc_nested.live.vision.chat_region import without_chat
 from mc_nested.live.vision.game_screen import WORLDS_TITLE
-from mc_nested.live.vision.glyph_grid import GLYPH_ROWS
+from mc_nested.live.vision.glyph_grid import GLYPH_ROWS, dots_in
 from mc_nested.live.vision.layout import INK_SPREAD
 from mc_nested.live.vision.menu_labels import MenuButton
 
@@ -168,7 +168,7 @@ class MenuWalk:
         scale, top = self.scale, 32 if self._game.dialect == "1.12" else 48
         middle = -(-self._size[0] // scale) // 2
         left, right, height = middle + _ROW[0], middle + _ROW[1], _ROW[2]
-        dots = frame[scale // 2 :: scale, scale // 2 :: scale][top : top + height, left:right]
+        dots = dots_in(frame, scale)[top : top + height, left:right]
         ink = np.asarray((dots >= 255 - INK_SPREAD).all(2))
         if not ink.any():
             return None

@@ -16,6 +16,7 @@ from calibration.installation.options_txt import OptionsTxt
 from mc_nested.live.devices import SWITCH_KEYS, Frame
 from mc_nested.live.model.debug_entries import GROUND_PITCH_DEG, LOOK_DOWN, has_entries, have_block_named
 from mc_nested.live.model.versions import later_version_line, version_in
+from mc_nested.live.profile.fingerprint import size_text
 from mc_nested.live.profile.tables import Profile
 from mc_nested.live.vision.font import Font
 from mc_nested.live.vision.layout import PLAIN
@@ -202,7 +203,7 @@ def scaling_row(snapshot: WindowSnapshot) -> Check:
     if snapshot.points is None:
         return Check(row, "skip", "this window's points aren't known")
     across, down = (pixels / points for pixels, points in zip(snapshot.picture_size, snapshot.points, strict=True))
-    measured = f"{across:.3g} pixels to a point: {_size(snapshot.picture_size)} for {_size(snapshot.points)}"
+    measured = f"{across:.3g} pixels to a point: {size_text(snapshot.picture_size)} for {size_text(snapshot.points)}"
     if abs(across - down) > _RATIO_TOLERANCE:
         return Check(
             row,
@@ -219,9 +220,9 @@ def scaling_row(snapshot: WindowSnapshot) -> Check:
 
 def size_row(snapshot: WindowSnapshot, profile: Profile | None) -> Check:
     """Check the window's size, and the GUI scale at which its text is seen."""
-    row, size, scales = CheckName.SIZE_AND_SCALE, f"{_size(snapshot.window.window)} pixels", snapshot.window.scales
+    row, size, scales = CheckName.SIZE_AND_SCALE, f"{size_text(snapshot.window.window)} pixels", snapshot.window.scales
     if any(seen < least for seen, least in zip(snapshot.window.window, LEAST, strict=True)):
-        return Check(row, "fail", size, f"make the window larger than {_size(LEAST)}")
+        return Check(row, "fail", size, f"make the window larger than {size_text(LEAST)}")
     if scales is None:
         return Check(row, "skip", f"{size}; no text of the game is seen")
     scale, wanted = scales.debug, profile.screen.debug_scale if profile else None
@@ -242,7 +243,3 @@ def size_row(snapshot: WindowSnapshot, profile: Profile | None) -> Check:
             f"make the window at least {ROOMY * scale} pixels wide, or set a smaller GUI scale",
         )
     return Check(row, "pass", f"{size}, GUI scale {scales}")
-
-
-def _size(size: tuple[int, int]) -> str:
-    return f"{size[0]} x {size[1]}"

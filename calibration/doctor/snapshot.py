@@ -3,12 +3,12 @@
 from collections.abc import Callable
 from dataclasses import dataclass, field
 
+from mc_nested.live.connection import overlay_of
 from mc_nested.live.devices import SWITCH_KEYS, Deadline, Devices, Display, Frame
 from mc_nested.live.menus.screens import ScreenName, menu_name
 from mc_nested.live.model.reading import Reading
 from mc_nested.live.model.timing import PERSON_LOOK_S
 from mc_nested.live.profile.fingerprint import Fingerprint, game_in
-from mc_nested.live.profile.overlay import overlay_of
 from mc_nested.live.profile.tables import Profile
 from mc_nested.live.vision.debug_screen import nothing_seen, read_found
 from mc_nested.live.vision.font import Font

@@ -9,8 +9,6 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-import numpy as np
-
 from calibration.context import CalibrationContext, OpenContext, ReportPicture, StepResult
 from calibration.cross_check import cross_check
 from calibration.font.read_back import ReadLine, phase_of, read_back, side_by_side
@@ -28,8 +26,9 @@ from mc_nested.live.profile.tables import Profile
 from mc_nested.live.vision.debug_screen import read_debug_screen
 from mc_nested.live.vision.font import Font, load_font
 from mc_nested.live.vision.game_screen import WindowScreen
-from mc_nested.live.vision.layout import INK_SPREAD, VANILLA, Overlay
+from mc_nested.live.vision.layout import VANILLA, Overlay
 from mc_nested.live.vision.overlay import SCALES, find_debug_screen, find_overlay
+from mc_nested.live.vision.text_lines import ink_of
 
 SHOWN = 6
 """How many fonts an error names at most."""
@@ -92,9 +91,7 @@ def _names(candidates: Sequence[Candidate]) -> str:
 def _has_text(frame: Frame) -> bool:
     """Return whether so much of the upper left has the text's colour that there must be a debug screen."""
     part = frame[: frame.shape[0] // 2, : frame.shape[1] // 3]
-    colour = np.array(VANILLA.text_colour, np.int16)
-    inked = (np.abs(part.astype(np.int16) - colour) <= INK_SPREAD).all(2)
-    return float(inked.mean()) > _TEXT_SHARE
+    return float((ink_of(part, VANILLA.text_colour) > 0).mean()) > _TEXT_SHARE
 
 
 STEP = "font"

@@ -12,6 +12,7 @@ import numpy as np
 
 from mc_nested.live.devices import Frame
 from mc_nested.live.vision.font import Font
+from mc_nested.live.vision.glyph_grid import dots_of
 from mc_nested.live.vision.layout import INK_SPREAD
 from mc_nested.live.vision.overlay import POSITION, FoundScreen, find_debug_screen
 from mc_nested.live.vision.screen_lines import ScreenLines
@@ -60,9 +61,7 @@ def phase_of(frame: Frame, font: Font) -> tuple[int, int] | None:
     if found is None:
         return None
     scale, (row, column) = found.overlay.scale, positions_of(found.dots, font, found.label)[0]
-    columns = np.frombuffer(font.columns(found.label), np.uint8)[np.newaxis]
-    dots = np.unpackbits(columns, axis=0, bitorder="little").astype(bool)
-    wanted = dots.repeat(scale, 0).repeat(scale, 1)
+    wanted = dots_of(font.columns(found.label)).repeat(scale, 0).repeat(scale, 1)
     ink = frame[..., 1] >= min(found.overlay.colour) - INK_SPREAD
     steps = sorted(range(1 - scale, scale), key=abs)
 

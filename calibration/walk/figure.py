@@ -23,10 +23,7 @@ COLOURS: dict[Gait, str] = {"walk": "#1f5fa8", "sneak": "#b8561b"}
 
 def picture_of_walk(walk_model: WalkModel) -> ReportPicture:
     """Draw the curve, left, and the residuals, right: (420, 1000, 3)."""
-    # Imported only here: it is slow, and it prints warnings where it finds no folder for its settings.
-    from matplotlib.figure import Figure
-
-    figure = Figure(figsize=SIZE_IN, dpi=DPI, layout="constrained")
+    figure = _figure()
     curve, residuals = figure.subplots(1, 2)
     models: dict[Gait, GaitModel] = {"walk": walk_model.walking, "sneak": walk_model.sneaking}
     for gait, model in models.items():
@@ -52,10 +49,7 @@ def picture_of_walk(walk_model: WalkModel) -> ReportPicture:
 
 def picture_of_empirical_walk(walk: EmpiricalWalk) -> ReportPicture:
     """Draw the holds, and the line through them: (420, 1000, 3)."""
-    # Imported only here, as above.
-    from matplotlib.figure import Figure
-
-    figure = Figure(figsize=SIZE_IN, dpi=DPI, layout="constrained")
+    figure = _figure()
     axes = figure.subplots()
     ticks = np.arange(1, len(walk.table.covered) + 1)
     axes.plot(ticks * TICK_S, walk.table.covered, color=COLOURS["walk"], linewidth=1)
@@ -64,6 +58,13 @@ def picture_of_empirical_walk(walk: EmpiricalWalk) -> ReportPicture:
     axes.set(xlabel="key held, seconds", ylabel="blocks until standstill", title="How far a hold leads")
     axes.grid(color="0.9")
     return ReportPicture("How far a held key walks", _render(figure), "each dot is a hold; the line runs through them")
+
+
+def _figure() -> "Figure":
+    # Imported only here: it is slow, and it prints warnings where it finds no folder for its settings.
+    from matplotlib.figure import Figure
+
+    return Figure(figsize=SIZE_IN, dpi=DPI, layout="constrained")
 
 
 def _render(figure: "Figure") -> NDArray[np.uint8]:

@@ -13,6 +13,7 @@ from calibration.arena.build import calibrate_built_arena
 from calibration.arena.mark import mark_arena
 from calibration.arena.undo import undo_built_arena
 from calibration.calibrate_all import calibrate_all as calibrate_every_step
+from calibration.calibrate_all import registered_steps
 from calibration.clicks.find import calibrate_clicks
 from calibration.clicks.points import show_clicks, try_clicks
 from calibration.context import OpenContext, StepResult, context_opener
@@ -20,9 +21,7 @@ from calibration.doctor.check import Check
 from calibration.doctor.examination import examine
 from calibration.font.find import calibrate_font
 from calibration.installation.folders import System
-from calibration.registry import registered_steps
-from calibration.report.page import TITLES
-from calibration.report.write import report_path, write_report
+from calibration.report.page import TITLES, report_path, write_report
 from calibration.walk.measure import calibrate_walk
 from mc_nested.cli.options import (
     DEFAULT_PROFILE,

@@ -21,9 +21,9 @@ from mc_nested.cli.options import DEFAULT_PROFILE, ProfileOption, is_alone
 from mc_nested.cli.output import JsonOption, Output, prints
 from mc_nested.cli.recordings import last_recording, recording_path
 from mc_nested.errors import FontError, PictureError, RecordingError
+from mc_nested.live.connection import overlay_of
 from mc_nested.live.desktop import open_clipboard
 from mc_nested.live.model.debug_entries import GROUND_PITCH_DEG, switch_on
-from mc_nested.live.profile.overlay import overlay_of
 from mc_nested.live.profile.store import load_profile, profile_path
 from mc_nested.live.recording.run_recorder import kept_recordings
 from mc_nested.live.vision.font import load_font

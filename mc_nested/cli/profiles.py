@@ -23,8 +23,8 @@ from mc_nested.cli.completion import complete_profiles
 from mc_nested.cli.options import is_alone
 from mc_nested.cli.output import FittingTable, JsonOption, Output, facts_table, prints
 from mc_nested.errors import DesktopError
+from mc_nested.live.desktop import open_camera, this_system
 from mc_nested.live.desktop.display import WindowDisplay
-from mc_nested.live.desktop.system import open_camera, this_system
 from mc_nested.live.profile.fingerprint import Fingerprint
 from mc_nested.live.profile.folder import profile_folder
 from mc_nested.live.vision.layout import Scales

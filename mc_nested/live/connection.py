@@ -1,17 +1,18 @@
 """GameConnection: one running game: its window's devices, the one owner of held keys, and the screen reader."""
 
+import dataclasses
 from collections.abc import Callable
 
 from mc_nested.errors import ProfileError
 from mc_nested.live.devices import Devices
 from mc_nested.live.input.input_controller import InputController
-from mc_nested.live.journal import Journal, NoJournal
+from mc_nested.live.journal import Journal, Journals
 from mc_nested.live.profile.fingerprint import check_single_player, game_in
-from mc_nested.live.profile.overlay import overlay_of
 from mc_nested.live.profile.tables import Profile
 from mc_nested.live.vision.chat_region import ChatLines
 from mc_nested.live.vision.font import load_font
 from mc_nested.live.vision.game_screen import GameScreen, WindowScreen
+from mc_nested.live.vision.layout import LAYOUTS, VANILLA, Overlay
 
 
 class GameConnection:
@@ -41,7 +42,7 @@ class GameConnection:
         self.devices = devices
         self.controller = controller
         self.is_server_allowed = is_server_allowed
-        self.journal = journal or NoJournal()
+        self.journal = journal or Journals()
         self.chat_lines = chat_lines or ChatLines()
         self._screen = on_screen(screen) if screen else None
         if self._screen is not None:
@@ -105,3 +106,17 @@ def screen_for(profile: Profile, devices: Devices) -> WindowScreen:
     font, overlay, display = load_font(profile.screen.font_path()), overlay_of(profile), devices.display
     version = game_in(display.title(), profile.game).version
     return WindowScreen(display, font, overlay, version)
+
+
+def overlay_of(profile: Profile) -> Overlay | None:
+    """Return the overlay of a profile that names its scale: what else it leaves out is its layout's.
+
+    None where the scale, and with it all the rest, is found on the screen.
+    """
+    screen = profile.screen
+    if screen.debug_scale is None:
+        return None
+    layout = LAYOUTS[screen.layout] if screen.layout else VANILLA
+    if screen.line_pitch is not None:
+        layout = dataclasses.replace(layout, pitch=screen.line_pitch)
+    return Overlay(screen.debug_scale, layout, screen.text_colour or layout.text_colour)

@@ -32,6 +32,12 @@ class Region:
     width: int
     height: int
 
+    @property
+    def slices(self) -> tuple[slice, slice]:
+        """Its rows and columns in a picture; what lies left of that or above it is cut off."""
+        top, left = max(0, self.top), max(0, self.left)
+        return slice(top, max(top, self.top + self.height)), slice(left, max(left, self.left + self.width))
+
 
 @dataclass(frozen=True)
 class DesktopArea:

@@ -27,15 +27,8 @@ class Journal(Protocol):
     def note(self, kind: NoteKind, /, **facts: Fact) -> None: ...
 
 
-class NoJournal:
-    """Keeps nothing."""
-
-    def note(self, kind: NoteKind, /, **facts: Fact) -> None:
-        """Do nothing."""
-
-
 class Journals:
-    """Several journals that get the same notes."""
+    """Any number of journals that get the same notes; with none, nothing is kept."""
 
     def __init__(self, *journals: Journal) -> None:
         self._journals = journals

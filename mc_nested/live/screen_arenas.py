@@ -9,7 +9,7 @@ the window; black where nearly nothing is.
 """
 
 from collections.abc import Sequence
-from typing import Any, NoReturn
+from typing import Any
 
 import cv2
 import numpy as np
@@ -58,7 +58,7 @@ def world_greys(frame: Frame, scales: Scales) -> NDArray[np.uint8]:
     if parts:  # the bars beside the boxes
         seen[:, : scales.debug] = seen[:, -scales.debug :] = 0
     for region in hidden_regions((frame.shape[1], frame.shape[0]), scales.gui):
-        seen[_part(region)] = 0
+        seen[region.slices] = 0
     share = _smaller(seen)
     means = _smaller(greys * seen) / np.maximum(share, _LEAST_SEEN)
     return np.rint(np.where(share < _LEAST_SEEN, 0, means)).clip(0, 255).astype(np.uint8)
@@ -75,15 +75,11 @@ def hidden_regions(size: tuple[int, int], scale: int) -> tuple[Region, ...]:
 
 def _look_through(frame: Frame, greys: Float32s, seen: Float32s, box: Region, scale: int, grey: int = GREY) -> None:
     """Undo a box's grey. What its letters hide isn't seen, nor what an underline hides just below the box."""
-    part, below = _part(box), _part(Region(box.left, box.top + box.height, box.width, scale))
+    part, below = box.slices, Region(box.left, box.top + box.height, box.width, scale).slices
     # Where two boxes meet, what is left of the first one's world is not known.
     seen[part] *= (cv2.inRange(frame[part], (0, 0, 0), (BRIGHTEST,) * 3) > 0) & (greys[part] >= grey * ALPHA - 1)
     seen[below] *= ~has_letters(frame[below])
     greys[part] = np.maximum(0, (greys[part] - grey * ALPHA) / (1 - ALPHA))
-
-
-def _part(region: Region) -> tuple[slice, slice]:
-    return slice(region.top, region.top + region.height), slice(region.left, region.left + region.width)
 
 
 def _smaller(picture: Float32s) -> Float32s:
@@ -164,7 +160,10 @@ class ScreenArenas(VectorWrapper[Pictures, Int64s, Int64s, Int64s, Any]):
 
 def windows_of(arenas: ArenaVectorEnv) -> Sequence[GameConnection]:
     """Return the connection of each arena's game; raise UserError if one isn't played in a window."""
-    return [getattr(env.game, "connection", None) or _has_no_window() for env in arenas.envs]
+    windows: list[Any] = [getattr(env.game, "connection", None) for env in arenas.envs]
+    if None in windows:
+        raise UserError(NEEDS_A_WINDOW)
+    return windows
 
 
 def seen_in(window: GameConnection) -> Pictures:
@@ -173,7 +172,3 @@ def seen_in(window: GameConnection) -> Pictures:
     if scales is None:
         raise LiveError("the debug screen isn't seen, and with it the GUI scale: press F3 in the game")
     return world_greys(window.devices.display.grab(), scales)
-
-
-def _has_no_window() -> NoReturn:
-    raise UserError(NEEDS_A_WINDOW)

@@ -1,7 +1,7 @@
 """Open a live game: its window, the connection to it, and the Game that is played there, from one value, an Opening."""
 
 from collections.abc import Callable, Iterator
-from contextlib import AbstractContextManager, contextmanager
+from contextlib import AbstractContextManager, contextmanager, nullcontext
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -12,6 +12,7 @@ from mc_nested.arena.scenario_file import table_of
 from mc_nested.errors import RecordingError
 from mc_nested.live.connection import GameConnection, prepare_keyboard
 from mc_nested.live.desktop import open_desktop
+from mc_nested.live.desktop.panic import open_panic_switch
 from mc_nested.live.devices import SWITCH_KEYS, Devices, Display
 from mc_nested.live.input.input_controller import InputController
 from mc_nested.live.input.stops import Stop, watched
@@ -23,7 +24,8 @@ from mc_nested.live.model.versions import later_version_line
 from mc_nested.live.profile.fingerprint import Fingerprint, check_fit, game_in
 from mc_nested.live.profile.store import load_profile, profile_path
 from mc_nested.live.profile.tables import Profile
-from mc_nested.live.recording.run_recorder import OpenRecorder, no_recorder, recorder_opener
+from mc_nested.live.recording.recorder import Recorder
+from mc_nested.live.recording.run_recorder import open_recorder
 from mc_nested.live.vision.font import load_font
 from mc_nested.live.vision.layout import Scales
 
@@ -31,12 +33,8 @@ OFF = "off"
 """Instead of a folder for the recording: nothing is recorded."""
 
 
-def open_desktops_panic_switch(key: str, stop: Stop) -> AbstractContextManager[None]:
-    """Open the panic switch of this desktop."""
-    # Imported here: importing it needs a display, which is open only now.
-    from mc_nested.live.desktop.panic import open_panic_switch
-
-    return open_panic_switch(key, stop)
+Guard = Callable[[], AbstractContextManager[None]]
+"""While it lasts, a watchdog releases keys that are held too long, and the panic switch stops all input."""
 
 
 @dataclass(frozen=True)
@@ -66,7 +64,7 @@ class Opening:
     journal: Journal | None = None
     evidence: Path | None = None
     open_devices: Callable[[str], AbstractContextManager[Devices]] = open_desktop
-    open_panic_switch: Callable[[str, Stop], AbstractContextManager[None]] = open_desktops_panic_switch
+    open_panic_switch: Callable[[str, Stop], AbstractContextManager[None]] = open_panic_switch
 
     def __post_init__(self) -> None:
         folder = self._recordings_folder
@@ -74,8 +72,10 @@ class Opening:
             raise RecordingError(f"{folder}: holds something already: name a new folder for the recording, or {OFF!r}")
 
     @contextmanager
-    def connection(self, profile: Profile, scenario: Scenario | None = None) -> Iterator["OpenWindow"]:
+    def connection(self, profile: Profile, scenario: Scenario | None = None) -> Iterator[tuple[GameConnection, Guard]]:
         """Open the profile's window, recorded if that is asked for; it isn't read yet, and nothing is pressed.
+
+        Yields the connection to it, and what guards a block in which something is pressed.
 
         Args:
             profile: whose window it is.
@@ -84,10 +84,9 @@ class Opening:
         Raises:
             DesktopError: there is no such window, or this keyboard lacks one of the profile's keys.
         """
-        recorder = self._recorder(scenario)
-        with self.open_devices(profile.window.title) as window, recorder(profile, window) as recording:
+        with self.open_devices(profile.window.title) as window, self._recorder(profile, window, scenario) as recorder:
             prepare_keyboard(profile, window)
-            devices = recording.devices(window)
+            devices = recorder.devices(window) if recorder else window
             if line := later_version_line(game_in(devices.display.title(), profile.game).version):
                 self.say(line)
             controller = InputController(devices, profile.input)
@@ -95,37 +94,31 @@ class Opening:
                 devices,
                 controller,
                 is_server_allowed=self.is_server_allowed,
-                journal=Journals(*([self.journal] if self.journal else []), recording),
-                on_screen=recording.screen,
+                journal=Journals(*(each for each in (self.journal, recorder) if each)),
+                on_screen=recorder.screen if recorder else lambda screen: screen,
             )
-            switch = self.open_panic_switch
-            yield OpenWindow(connection, lambda: switch(profile.keys.panic, recording.stopping(controller.stop)))
+            stop = recorder.stopping(controller.stop) if recorder else controller.stop
+
+            @contextmanager
+            def guarded() -> Iterator[None]:
+                with watched(controller), self.open_panic_switch(profile.keys.panic, stop):
+                    yield
+
+            yield connection, guarded
 
     @property
     def _recordings_folder(self) -> Path | None:
         return None if self.record in (None, OFF) else Path(self.record)
 
-    def _recorder(self, scenario: Scenario | None) -> OpenRecorder:
+    def _recorder(
+        self, profile: Profile, window: Devices, scenario: Scenario | None
+    ) -> AbstractContextManager[Recorder | None]:
         if self.record == OFF:
-            return no_recorder
+            return nullcontext()
         facts = {"is_server_allowed": str(self.is_server_allowed).lower()}
         if scenario is not None:
             facts["scenario"] = tomlkit.dumps(table_of(scenario).model_dump(exclude_none=True))
-        return recorder_opener(self._recordings_folder, self.what, self.say, facts)
-
-
-@dataclass(frozen=True)
-class OpenWindow:
-    """A game's window is open; its panic switch isn't yet."""
-
-    connection: GameConnection
-    panic_switch: Callable[[], AbstractContextManager[None]]
-
-    @contextmanager
-    def guarded(self) -> Iterator[None]:
-        """Guard the block: a watchdog releases keys that are held too long, and the panic switch stops all input."""
-        with watched(self.connection.controller), self.panic_switch():
-            yield
+        return open_recorder(self._recordings_folder, self.what, self.say, profile, window, facts)
 
 
 @contextmanager
@@ -146,8 +139,8 @@ def open_live_game(scenario: Scenario, opening: Opening) -> Iterator[tuple[LiveG
     profile, say = load_profile(opening.profile), opening.say
     check_fits(scenario, profile, opening.profile)
     load_font(profile.screen.font_path())
-    with opening.connection(profile, scenario) as window:
-        connection = window.connection.for_profile(profile)
+    with opening.connection(profile, scenario) as (unread, guarded):
+        connection = unread.for_profile(profile)
         display = connection.devices.display
         # Checked twice: before anybody has to switch windows, and again once the GUI scale can be read.
         check_fit(profile.calibrated, fingerprint_of(display), opening.profile)
@@ -162,7 +155,7 @@ def open_live_game(scenario: Scenario, opening: Opening) -> Iterator[tuple[LiveG
         check_fit(profile.calibrated, fingerprint_of(display, connection.screen.seen_scales()), opening.profile)
         check_block_is_named(reading, game_in(display.title(), profile.game).version)
         game = LiveGame(scenario, profile, connection, points=points, evidence=opening.evidence)
-        with game, window.guarded():
+        with game, guarded():
             yield game, display
 
 

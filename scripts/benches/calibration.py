@@ -23,12 +23,11 @@ import numpy as np
 from rich.console import Console
 from rich.progress import track
 
-from calibration.calibrate_all import Examine, calibrate_all
+from calibration.calibrate_all import Examine, calibrate_all, registered_steps
 from calibration.context import CalibrationContext, OpenContext, StepResult
 from calibration.doctor.check import Check
 from calibration.doctor.examination import examine
 from calibration.installation.folders import System
-from calibration.registry import registered_steps
 from mc_nested.arena.scenario import Scenario
 from mc_nested.arena.scenario_file import load_scenario
 from mc_nested.errors import McNestedError, UserError

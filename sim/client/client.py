@@ -7,7 +7,6 @@ game -> views, each with the time of its frame (60 a second) -> display, 10 to 3
 import dataclasses
 import math
 from collections import deque
-from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -18,14 +17,13 @@ from mc_nested.live.devices import Clipboard, Devices
 from mc_nested.live.model.coordinates import cell_at
 from mc_nested.live.model.reading import Block
 from mc_nested.live.profile.arena import Arena
-from mc_nested.live.vision.font import Font, font_of
 from mc_nested.live.vision.layout import Scales
 from sim.client.desktop.clock import Frames, VirtualClock
 from sim.client.desktop.display import VirtualDisplay
 from sim.client.desktop.keyboard import VirtualKeySender
 from sim.client.desktop.pointer import VirtualPointer
 from sim.client.desktop.window import VirtualClipboard, VirtualWindow
-from sim.client.drawing.letters import drawn_atlas
+from sim.client.drawing.letters import drawn_font
 from sim.client.drawing.painter import SEEN, Painter, ViewLayers
 from sim.client.game.controls import Controls
 from sim.client.game.edition import Edition
@@ -88,7 +86,7 @@ class VirtualClient:
         self.controls = Controls(self.game, self.clipboard.read, self.clipboard.write)
         self.mishaps = Mishaps(self, mishaps)
 
-        self._font = settings.font or _drawn_font()
+        self._font = settings.font or drawn_font()
         self.display = VirtualDisplay(
             self.clock,
             self.window,
@@ -152,11 +150,6 @@ class VirtualClient:
     def scale(self) -> int:
         """The GUI scale that the window gets."""
         return self.scales.gui
-
-    @property
-    def holds_pointer(self) -> bool:
-        """Whether the game keeps the mouse to itself: its world is played, in front."""
-        return self.window.is_in_front and self.game.screen == "world"
 
     def new_layers(self) -> ViewLayers:
         """Return the layers that draw a view's GUI, in the window's present size."""
@@ -270,8 +263,3 @@ class VirtualClient:
     def _stay_unfocused(self, since: float) -> None:
         if self._unfocused_since == since:
             self.controls.stay_unfocused()
-
-
-@lru_cache(1)
-def _drawn_font() -> Font:
-    return font_of(drawn_atlas())

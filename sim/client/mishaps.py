@@ -47,24 +47,28 @@ _OF_THE_WORLD = frozenset(
 )
 
 
-class MishapTarget(Protocol):
+class ShownWindow(Protocol):
+    """The client's window on its desktop: the virtual one, or a real one."""
+
+    def set_front(self, *, is_in_front: bool) -> None: ...
+
+    def resize(self, size: Size) -> None: ...
+
+    def shift_window(self, right: int, down: int) -> None: ...
+
+
+class MishapTarget(ShownWindow, Protocol):
     """A client that mishaps happen to."""
 
     clock: VirtualClock
     game: VirtualGame
     window: VirtualWindow
 
-    def set_front(self, *, is_in_front: bool) -> None: ...
-
     def stall(self, seconds: float) -> None: ...
 
     def freeze(self, seconds: float) -> None: ...
 
     def blacken(self, seconds: float) -> None: ...
-
-    def resize(self, size: Size) -> None: ...
-
-    def shift_window(self, right: int, down: int) -> None: ...
 
 
 @dataclass(frozen=True)
@@ -76,10 +80,16 @@ class Mishap:
 
 
 class Mishaps:
-    """Makes mishaps happen to a client, and records them in ``happened``."""
+    """Makes mishaps happen to a client, and records them in ``happened``.
 
-    def __init__(self, client: MishapTarget, rng: np.random.Generator) -> None:
-        self._client, self._rng = client, rng
+    Args:
+        client: what they happen to.
+        rng: draws them.
+        shown: the window that shows the client, where that is a real one: the desktop's part is done to it.
+    """
+
+    def __init__(self, client: MishapTarget, rng: np.random.Generator, shown: ShownWindow | None = None) -> None:
+        self._client, self._rng, self._shown = client, rng, shown or client
         self.happened: list[Mishap] = []
         game, window = client.game, client.window
         self._effects: dict[Kind, Event] = {
@@ -136,16 +146,16 @@ class Mishaps:
         self._effects[kind]()
 
     def _lose_focus(self) -> None:
-        client = self._client
-        client.set_front(is_in_front=False)
-        client.clock.call_at(client.clock.now() + self._between(0.2, 2.0), lambda: client.set_front(is_in_front=True))
+        clock, shown = self._client.clock, self._shown
+        shown.set_front(is_in_front=False)
+        clock.call_at(clock.now() + self._between(0.2, 2.0), lambda: shown.set_front(is_in_front=True))
 
     def _move_window(self) -> None:
-        self._client.shift_window(int(self._rng.integers(-200, 200)), int(self._rng.integers(-200, 200)))
+        self._shown.shift_window(int(self._rng.integers(-200, 200)), int(self._rng.integers(-200, 200)))
 
     def _resize_window(self) -> None:
         others = [size for size in SIZES if size != self._client.window.size]
-        self._client.resize(others[int(self._rng.integers(len(others)))])
+        self._shown.resize(others[int(self._rng.integers(len(others)))])
 
     def _notice(self) -> None:
         client = self._client

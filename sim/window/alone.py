@@ -10,7 +10,7 @@ from pathlib import Path
 
 from mc_nested.errors import DesktopError, SeveralWindowsError, UserError
 from mc_nested.file_lock import file_lock
-from mc_nested.live.desktop.system import this_system
+from mc_nested.live.desktop import this_system
 from mc_nested.live.profile.tables import WindowTable
 
 

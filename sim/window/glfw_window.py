@@ -58,9 +58,9 @@ class GlfwWindow:
         _, _, across, high = glfw.get_monitor_workarea(glfw.get_primary_monitor())
         if width <= across and height <= high:
             glfw.set_window_size(self.handle, width, height)
-            self.shift(0, 0)
+            self.shift_window(0, 0)
 
-    def shift(self, right: int, down: int) -> None:
+    def shift_window(self, right: int, down: int) -> None:
         """Move it by some points of the desktop, but not off the main screen."""
         (x, y), (width, height) = glfw.get_window_pos(self.handle), glfw.get_window_size(self.handle)
         left, top, across, high = glfw.get_monitor_workarea(glfw.get_primary_monitor())

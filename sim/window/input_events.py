@@ -86,7 +86,7 @@ class InputEvents:
 
     def follow_screen(self) -> None:
         """Grab the cursor or free it, as the client's screen wants it now."""
-        is_grabbed = self._client.holds_pointer
+        is_grabbed = self._client.pointer.is_held
         if is_grabbed == self._is_grabbed:
             return
         self._is_grabbed = is_grabbed
@@ -126,7 +126,7 @@ class InputEvents:
 
     def _on_cursor(self, _window: Any, x: float, y: float) -> None:
         if not self._is_grabbed:
-            if self._client.holds_pointer:  # to be grabbed at the next frame: this is no turn of the mouse
+            if self._client.pointer.is_held:  # to be grabbed at the next frame: this is no turn of the mouse
                 return
             ratio = self._window.pixels_a_point
             self._client.pointer.move(int(x * ratio), int(y * ratio))

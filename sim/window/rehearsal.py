@@ -19,37 +19,11 @@ from mc_nested.errors import DesktopError
 from mc_nested.live.model.reading import Block
 from sim.client.client import VirtualClient
 from sim.client.mishaps import Mishaps
-from sim.client.settings import ClientSettings, Size
+from sim.client.settings import ClientSettings
 from sim.window.frame_pacer import FramePacer
 from sim.window.glfw_window import GlfwWindow, now, open_glfw_window, refresh_rate
 from sim.window.input_events import InputEvents
 from sim.window.window_picture import WindowPicture
-
-
-class MishapWindow:
-    """A client in a real window, as mishaps find it: the desktop's part is done to the window itself."""
-
-    def __init__(self, window: GlfwWindow, client: VirtualClient) -> None:
-        self._window, self._client = window, client
-        self.clock, self.game, self.window = client.clock, client.game, client.window
-
-    def set_front(self, *, is_in_front: bool) -> None:
-        self._window.set_front(is_in_front=is_in_front)
-
-    def stall(self, seconds: float) -> None:
-        self._client.stall(seconds)
-
-    def freeze(self, seconds: float) -> None:
-        self._client.freeze(seconds)
-
-    def blacken(self, seconds: float) -> None:
-        self._client.blacken(seconds)
-
-    def resize(self, size: Size) -> None:
-        self._window.resize(size)
-
-    def shift_window(self, right: int, down: int) -> None:
-        self._window.shift(right, down)
 
 
 class TruthFile:
@@ -126,7 +100,7 @@ def rehearse(rehearsal: Rehearsal, on_open: Callable[[], None]) -> None:
         client.resize(window.size)
         if rehearsal.mishaps_a_minute:
             rng = np.random.default_rng(settings.seed)
-            Mishaps(MishapWindow(window, client), rng).every(rehearsal.mishaps_a_minute / 60)
+            Mishaps(client, rng, window).every(rehearsal.mishaps_a_minute / 60)
         truth = TruthFile(rehearsal.truth, client) if rehearsal.truth else None
         on_open()
         _run(window, WindowPicture(context, client), client, fps, truth)

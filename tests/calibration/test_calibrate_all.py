@@ -21,11 +21,11 @@ from calibration.calibrate_all import (
     RunResult,
     StepFunction,
     calibrate_all,
+    registered_steps,
     run_steps,
 )
 from calibration.context import CalibrationContext, ReportPicture, StepResult
 from calibration.doctor.check import Check, CheckName
-from calibration.registry import registered_steps
 from calibration.report.findings import findings_folder, load_findings
 from mc_nested.errors import (
     DesktopError,

@@ -21,7 +21,7 @@ from calibration.profiles import (
     rename_profile,
 )
 from calibration.report.findings import findings_folder
-from calibration.report.write import report_path
+from calibration.report.page import report_path
 from mc_nested.errors import ProfileError
 from mc_nested.live.menus.click_points import picture_file
 from mc_nested.live.profile.arena import Arena

@@ -98,7 +98,7 @@ def install(client: VirtualClient) -> None:
     desktop.open_desktop = open_desktop
     desktop.open_clipboard = lambda: client.clipboard
     desktop.session_kind = lambda: "virtual"
-    panic = types.ModuleType("mc_nested.live.desktop.panic")  # the real one needs a display to be imported
+    panic = types.ModuleType("mc_nested.live.desktop.panic")
     vars(panic)["open_panic_switch"] = open_panic_switch
     sys.modules[panic.__name__] = panic
 

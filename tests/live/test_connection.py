@@ -1,15 +1,19 @@
 """A connection: the devices, the one owner of held keys and the screen reader, kept together and released together."""
 
+import dataclasses
 from pathlib import Path
 
 import cv2
 import pytest
 
 from mc_nested.errors import DesktopError, FontError, ProfileError
-from mc_nested.live.connection import GameConnection
+from mc_nested.live.connection import GameConnection, overlay_of
 from mc_nested.live.devices import Devices
 from mc_nested.live.input.input_controller import InputController
+from mc_nested.live.profile.store import load_profile, parse_profile
 from mc_nested.live.profile.tables import InputTable, Profile, ScreenTable
+from mc_nested.live.vision.layout import STANDIN, VANILLA, Overlay
+from scripts.standin_game import write_profile
 from sim.client.client import VirtualClient
 from sim.client.drawing.letters import drawn_atlas
 from tests.live.fake_game import FakeGame, FakeScreen, connection_to, devices_of
@@ -133,3 +137,32 @@ def test_a_connection_allows_no_server_by_default_also_for_a_profile(font: Scree
         connect(profile, devices).check_single_player()
     allowed = GameConnection(devices, InputController(devices, profile.input), is_server_allowed=True)
     allowed.for_profile(profile).check_single_player()
+
+
+GREY, WHITE = (224, 224, 224), (255, 255, 255)
+
+
+@pytest.mark.parametrize(
+    ("screen", "overlay"),
+    [
+        ("", None),
+        ("line_pitch = 10\ntext_colour = [255, 255, 255]", None),
+        ("layout = 'stand-in'", None),
+        ("debug_scale = 6", Overlay(6, VANILLA, GREY)),
+        ("debug_scale = 3\nlayout = 'vanilla'\ntext_colour = [1, 2, 3]", Overlay(3, VANILLA, (1, 2, 3))),
+        ("debug_scale = 3\nlayout = 'stand-in'", Overlay(3, STANDIN, WHITE)),
+        ("debug_scale = 3\nline_pitch = 12", Overlay(3, dataclasses.replace(VANILLA, pitch=12), GREY)),
+        (
+            "debug_scale = 3\nlayout = 'vanilla'\nline_pitch = 10",
+            Overlay(3, dataclasses.replace(VANILLA, pitch=10), GREY),
+        ),
+    ],
+)
+def test_a_profile_with_a_debug_scale_gives_an_overlay(screen: str, overlay: Overlay | None) -> None:
+    assert overlay_of(parse_profile(f"[screen]\n{screen}\n", "here")) == overlay
+
+
+def test_the_stand_ins_own_profile_names_its_layout(tmp_path: Path) -> None:
+    profile = load_profile(write_profile(tmp_path / "profile.toml", tmp_path / "ascii.png"))
+    assert profile.screen.layout == "stand-in"
+    assert overlay_of(profile) == Overlay(3, STANDIN, WHITE)

@@ -1,6 +1,6 @@
 from mc_nested.arena.action import Action
 from mc_nested.arena.scenario_file import load_scenario
-from mc_nested.live.journal import Journals, NoJournal
+from mc_nested.live.journal import Journals
 from mc_nested.live.live_game import LiveGame
 from mc_nested.live.profile.tables import GameVersion, Profile
 from sim.client.client import VirtualClient
@@ -34,5 +34,5 @@ def test_the_journal_notes_an_action_from_its_beginning_to_its_outcome() -> None
 
 def test_several_journals_get_each_note() -> None:
     first, second = Notes(), Notes()
-    Journals(first, NoJournal(), second).note("waits", on="the game")
+    Journals(first, Journals(), second).note("waits", on="the game")
     assert first.taken == second.taken == [("waits", {"on": "the game"})]

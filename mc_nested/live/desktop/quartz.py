@@ -22,11 +22,7 @@ _ORDINARY_LAYER = 0
 
 @contextmanager
 def open_window(title: str) -> Iterator["QuartzWindow"]:
-    """Yield the one window whose title matches the regular expression ``title``.
-
-    Raises:
-        DesktopError: a missing permission, no window of that title on this space, or several.
-    """
+    """Yield the one window whose title matches, as ``DesktopSystem.open_window``."""
     _check_permissions()
     windows = [each for each in _shown_windows() if each.get(Quartz.kCGWindowName)]
     titled = [

@@ -8,13 +8,7 @@ from ctypes import wintypes
 from pathlib import PureWindowsPath
 
 from mc_nested.errors import ClipboardError
-from mc_nested.live.desktop.window import (
-    TitledWindow,
-    check_shown,
-    closed_error,
-    game_window,
-    minimised_error,
-)
+from mc_nested.live.desktop.window import TitledWindow, check_shown, closed_error, game_window, minimised_error
 from mc_nested.live.devices import DesktopArea, not_text_error
 
 if sys.platform == "win32":
@@ -46,11 +40,7 @@ _EnumWindowsCallback = ctypes.WINFUNCTYPE(wintypes.BOOL, wintypes.HWND, wintypes
 
 @contextmanager
 def open_window(title: str) -> Iterator["Win32Window"]:
-    """Yield the one window whose title matches the regular expression ``title``.
-
-    Raises:
-        DesktopError: no window of that title or several, or a minimised one.
-    """
+    """Yield the one window whose title matches, as ``DesktopSystem.open_window``."""
     # Fails harmlessly where the process has chosen its awareness already; pyautogui would choose a weaker one.
     _user32.SetProcessDpiAwarenessContext(ctypes.c_void_p(_PER_MONITOR_AWARE_V2))
     windows = titled_windows()

@@ -10,13 +10,7 @@ from Xlib.error import ConnectionClosedError, DisplayError, XauthError, XError
 from Xlib.xobject.drawable import Window
 
 from mc_nested.errors import DesktopError, NoWindowError
-from mc_nested.live.desktop.window import (
-    TitledWindow,
-    check_shown,
-    closed_error,
-    game_window,
-    minimised_error,
-)
+from mc_nested.live.desktop.window import TitledWindow, check_shown, closed_error, game_window, minimised_error
 from mc_nested.live.desktop.x11_clipboard import X11Clipboard
 from mc_nested.live.desktop.xwayland import (
     ALLOW,
@@ -33,11 +27,7 @@ from mc_nested.live.devices import DesktopArea, Frame
 
 @contextmanager
 def open_window(title: str) -> Iterator["X11Window"]:
-    """Yield the one window whose title matches the regular expression ``title``, for as long as the context lasts.
-
-    Raises:
-        DesktopError: no display, no window of that title on the X server or several, or a minimised one.
-    """
+    """Yield the one window whose title matches, as ``DesktopSystem.open_window``."""
     display = _connect()
     try:
         windows = _titled_windows(display)

@@ -47,6 +47,14 @@ class _Held:
     due: float
 
 
+def not_in_front_error() -> NotInFrontError:
+    """Return the error for a game's window that isn't in front."""
+    return NotInFrontError(
+        "the game's window is not in front, so no key is pressed: "
+        f"switch to it with {SWITCH_KEYS}, not by a click, then start again"
+    )
+
+
 class InputController:
     """Presses keys and buttons for a time, and never leaves one down: not on return, on an exception or on a signal.
 
@@ -245,10 +253,7 @@ class InputController:
     def check_front(self) -> None:
         """Raise NotInFrontError unless a key pressed now would reach the game."""
         if not self._display.is_in_front():
-            raise NotInFrontError(
-                "the game's window is not in front, so no key is pressed: "
-                f"switch to it with {SWITCH_KEYS}, not by a click, then start again"
-            )
+            raise not_in_front_error()
 
     def _check_running(self) -> None:
         self.check_stopped()

@@ -3,9 +3,10 @@
 A screen is left by its labels, else by the recorded points.
 """
 
-from mc_nested.errors import LiveError, NotInFrontError
+from mc_nested.errors import LiveError
 from mc_nested.live.connection import GameConnection
-from mc_nested.live.devices import SWITCH_KEYS, Deadline
+from mc_nested.live.devices import Deadline
+from mc_nested.live.input.input_controller import not_in_front_error
 from mc_nested.live.menus.click_points import ClickPoints, click_on
 from mc_nested.live.menus.screens import (
     LABELS,
@@ -27,22 +28,139 @@ from mc_nested.live.vision.game_screen import WORLDS_TITLE, Labels
 _ROW_LEFT, _ROW_MIDDLE = 119, 18
 """GUI pixels from the window's middle to the icon of a world's row, and from the list's top to the row's middle."""
 
+PATIENCE_S = 60.0
+"""How long a recovery may take, a world that loads included."""
 
-class MenuNavigator:
-    """Presses what leads from one screen to the next.
+FRONT_PATIENCE_S = 20.0
+"""How long another window may be in front."""
 
-    The caller has just seen which screen is shown. Nothing is clicked where neither label nor point is found.
+EFFECT_S = 0.3
+"""From a press until its effect is looked for: six ticks."""
 
-    Raises (everything): whatever the input controller raises.
+UNKNOWN_S = 1.5
+"""How long a screen may be unknown before something is pressed: pictures freeze, worlds load."""
+
+FRONT = "the game's window to come to the front"
+
+NOT_ON_A_SERVER: frozenset[ScreenName] = frozenset({"title", "worlds", "servers", "disconnected"})
+"""The screens that lead only into a world of one's own, never back to a server."""
+
+
+class Recovery:
+    """Leads back into the world that was left, by what leads from one screen to the next.
+
+    Nothing is clicked where neither label nor point is found.
+
+    If the window's title didn't say that the world was one's own when this was made, a recovery stops at the title
+    screen. Otherwise it would enter one's own world instead (FACTS: Input and windows; to 1.14 no title says so).
+
+    Raises (everything): NotInFrontError where the game's window stays behind another; LiveError where the world was
+    not reached in time, or where it is a server's and was left; whatever the input controller raises.
     """
 
-    def __init__(self, profile: Profile, connection: GameConnection, points: ClickPoints) -> None:
+    def __init__(self, profile: Profile, connection: GameConnection, points: ClickPoints | None = None) -> None:
         self._profile = profile
-        self._controller = connection.controller
         self._screen = connection.screen
         self._display = connection.devices.display
-        self._points = points
+        self._clock = connection.devices.clock
+        self._controller = connection.controller
+        self._journal = connection.journal
+        self._points = points or {}
         self._is_world_chosen = False
+        self._is_multiplayer = self._says_multiplayer()
+
+    def recover(self) -> tuple[ScreenName, ...]:
+        """Get to the world with its debug screen on, nothing over it, and the game's window in front.
+
+        Return the screens that were shown before the world, in order.
+        """
+        deadline = Deadline(self._clock, PATIENCE_S)
+        passed: list[ScreenName] = []
+        unknown_since: float | None = None
+        tried_debug = False
+        while True:
+            self._wait_for_front()
+            name, reason = self._identify()
+            self._check_server(name)
+            if name == "world":
+                return tuple(passed)
+            if deadline.has_passed:
+                raise LiveError(
+                    f"the world was not reached in {PATIENCE_S:g} s, the screen is {name} "
+                    f"({reason}): open the world, with the debug screen on, and start again"
+                )
+            if name == "menu" and passed[-2:] == ["menu", "pause"]:
+                # Esc closed nothing there, but opened the Game Menu, which was left.
+                raise LiveError(NO_HOTBAR)
+            if not passed or passed[-1] != name:
+                passed.append(name)
+                self._journal.note("recovers", screen=name)
+            if name != "unknown":
+                unknown_since, tried_debug = None, False
+                self.leave(name)
+            elif unknown_since is None:
+                unknown_since = self._clock.now()
+            elif self._clock.now() - unknown_since >= UNKNOWN_S:
+                # The debug screen may be off; if not, Esc closes what is there, or opens a menu that is known.
+                self.press(self._profile.keys.debug if not tried_debug else "esc")
+                tried_debug, unknown_since = not tried_debug, None
+            self._sleep(EFFECT_S)
+
+    def leave_world(self) -> None:
+        """Save the world, and get to the title screen."""
+        if self._is_multiplayer:
+            raise LiveError("a server's world is not left, since nothing leads back: take a profile without [world]")
+        deadline = Deadline(self._clock, PATIENCE_S)
+        while (name := self.screen_name()) != "title":
+            if deadline.has_passed:
+                raise LiveError(f"the title screen was not reached, the screen is {name}: leave the world, start again")
+            self._wait_for_front()
+            if name == "pause":
+                self.save_and_quit()
+            elif name in ("world", "chat"):
+                self.press("esc")
+            elif name != "unknown":
+                self.leave(name)
+            self._sleep(EFFECT_S)
+
+    def screen_name(self) -> ScreenName:
+        """Return which screen is shown."""
+        return self._identify()[0]
+
+    def _identify(self) -> tuple[ScreenName, str]:
+        """Return the screen, and why it can't be read. A picture may be torn: a menu without a name is seen twice."""
+        seen = identify_screen(self._screen, self._display, self._points)
+        if seen[0] != "menu":
+            return seen
+        self._sleep(MENU_LOOK_S)
+        return identify_screen(self._screen, self._display, self._points)
+
+    def _says_multiplayer(self) -> bool:
+        return may_be_shared(self._display.title())
+
+    def _check_server(self, name: ScreenName) -> None:
+        """Raise LiveError where this screen leads, or has led, from a server to another world, or the reverse."""
+        if self._is_multiplayer and name in NOT_ON_A_SERVER:
+            raise LiveError(f"the server was left, the screen is {name}: join the server again, then start again")
+        if name == "world" and self._says_multiplayer() != self._is_multiplayer:
+            was, now = ("a server's", "your own") if self._is_multiplayer else ("your own", "a server's")
+            raise LiveError(f"the world was {was}, and is {now} now: go back to the one before, then start again")
+
+    def _wait_for_front(self) -> None:
+        deadline = Deadline(self._clock, FRONT_PATIENCE_S)
+        if not self._display.is_in_front():
+            self._journal.note("waits", on=FRONT)
+        while not self._display.is_in_front():
+            if deadline.has_passed:
+                raise not_in_front_error()
+            self._sleep(EFFECT_S)
+
+    def _sleep(self, seconds: float) -> None:
+        """Let time pass, whether the window is in front or not; raise StoppedError if it was stopped."""
+        self._controller.check_stopped()
+        self._clock.sleep_until(self._clock.now() + seconds)
+
+    # What leads from one screen to the next. The caller has just seen which one is shown.
 
     def press(self, key: str) -> None:
         """Press a key that opens or closes a screen."""
@@ -105,141 +223,3 @@ class MenuNavigator:
         top = 32 if self._profile.game.dialect == "1.12" else 48
         middle = -(-width // scale) // 2
         return round((middle - _ROW_LEFT + 60) * scale), round((top + _ROW_MIDDLE) * scale)
-
-
-PATIENCE_S = 60.0
-"""How long a recovery may take, a world that loads included."""
-
-FRONT_PATIENCE_S = 20.0
-"""How long another window may be in front."""
-
-EFFECT_S = 0.3
-"""From a press until its effect is looked for: six ticks."""
-
-UNKNOWN_S = 1.5
-"""How long a screen may be unknown before something is pressed: pictures freeze, worlds load."""
-
-FRONT = "the game's window to come to the front"
-
-NOT_ON_A_SERVER: frozenset[ScreenName] = frozenset({"title", "worlds", "servers", "disconnected"})
-"""The screens that lead only into a world of one's own, never back to a server."""
-
-
-class Recovery:
-    """Leads back into the world that was left.
-
-    If the window's title didn't say that the world was one's own when this was made, a recovery stops at the title
-    screen. Otherwise it would enter one's own world instead (FACTS: Input and windows; to 1.14 no title says so).
-
-    Raises (everything): NotInFrontError where the game's window stays behind another; LiveError where the world was
-    not reached in time, or where it is a server's and was left; whatever the input controller raises.
-    """
-
-    def __init__(self, profile: Profile, connection: GameConnection, points: ClickPoints | None = None) -> None:
-        self._debug_key = profile.keys.debug
-        self._screen = connection.screen
-        self._display = connection.devices.display
-        self._clock = connection.devices.clock
-        self._controller = connection.controller
-        self._journal = connection.journal
-        self._points = points or {}
-        self._navigator = MenuNavigator(profile, connection, self._points)
-        self._is_multiplayer = self._says_multiplayer()
-
-    def recover(self, problem: str = "") -> tuple[ScreenName, ...]:
-        """Get to the world with its debug screen on, nothing over it, and the game's window in front.
-
-        Args:
-            problem: named in the error if this fails: why the debug screen could not be read.
-
-        Returns:
-            The screens that were shown before the world, in order.
-        """
-        deadline = Deadline(self._clock, PATIENCE_S)
-        passed: list[ScreenName] = []
-        unknown_since: float | None = None
-        tried_debug = False
-        while True:
-            self._wait_for_front()
-            name, reason = self._identify()
-            self._check_server(name)
-            if name == "world":
-                return tuple(passed)
-            if deadline.has_passed:
-                raise LiveError(
-                    f"the world was not reached in {PATIENCE_S:g} s, the screen is {name} "
-                    f"({reason or problem}): open the world, with the debug screen on, and start again"
-                )
-            if name == "menu" and passed[-2:] == ["menu", "pause"]:
-                # Esc closed nothing there, but opened the Game Menu, which was left.
-                raise LiveError(NO_HOTBAR)
-            if not passed or passed[-1] != name:
-                passed.append(name)
-                self._journal.note("recovers", screen=name)
-            if name != "unknown":
-                unknown_since, tried_debug = None, False
-                self._navigator.leave(name)
-            elif unknown_since is None:
-                unknown_since = self._clock.now()
-            elif self._clock.now() - unknown_since >= UNKNOWN_S:
-                # The debug screen may be off; if not, Esc closes what is there, or opens a menu that is known.
-                self._navigator.press(self._debug_key if not tried_debug else "esc")
-                tried_debug, unknown_since = not tried_debug, None
-            self._sleep(EFFECT_S)
-
-    def leave_world(self) -> None:
-        """Save the world, and get to the title screen."""
-        if self._is_multiplayer:
-            raise LiveError("a server's world is not left, since nothing leads back: take a profile without [world]")
-        deadline = Deadline(self._clock, PATIENCE_S)
-        while (name := self.screen_name()) != "title":
-            if deadline.has_passed:
-                raise LiveError(f"the title screen was not reached, the screen is {name}: leave the world, start again")
-            self._wait_for_front()
-            if name == "pause":
-                self._navigator.save_and_quit()
-            elif name in ("world", "chat"):
-                self._navigator.press("esc")
-            elif name != "unknown":
-                self._navigator.leave(name)
-            self._sleep(EFFECT_S)
-
-    def screen_name(self) -> ScreenName:
-        """Return which screen is shown."""
-        return self._identify()[0]
-
-    def _identify(self) -> tuple[ScreenName, str]:
-        """Return the screen, and why it can't be read. A picture may be torn: a menu without a name is seen twice."""
-        seen = identify_screen(self._screen, self._display, self._points)
-        if seen[0] != "menu":
-            return seen
-        self._sleep(MENU_LOOK_S)
-        return identify_screen(self._screen, self._display, self._points)
-
-    def _says_multiplayer(self) -> bool:
-        return may_be_shared(self._display.title())
-
-    def _check_server(self, name: ScreenName) -> None:
-        """Raise LiveError where this screen leads, or has led, from a server to another world, or the reverse."""
-        if self._is_multiplayer and name in NOT_ON_A_SERVER:
-            raise LiveError(f"the server was left, the screen is {name}: join the server again, then start again")
-        if name == "world" and self._says_multiplayer() != self._is_multiplayer:
-            was, now = ("a server's", "your own") if self._is_multiplayer else ("your own", "a server's")
-            raise LiveError(f"the world was {was}, and is {now} now: go back to the one before, then start again")
-
-    def _wait_for_front(self) -> None:
-        deadline = Deadline(self._clock, FRONT_PATIENCE_S)
-        if not self._display.is_in_front():
-            self._journal.note("waits", on=FRONT)
-        while not self._display.is_in_front():
-            if deadline.has_passed:
-                raise NotInFrontError(
-                    "the game's window is not in front, so no key is pressed: "
-                    f"switch to it with {SWITCH_KEYS}, not by a click, then start again"
-                )
-            self._sleep(EFFECT_S)
-
-    def _sleep(self, seconds: float) -> None:
-        """Let time pass, whether the window is in front or not; raise StoppedError if it was stopped."""
-        self._controller.check_stopped()
-        self._clock.sleep_until(self._clock.now() + seconds)

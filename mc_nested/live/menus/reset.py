@@ -13,7 +13,7 @@ from pathlib import Path
 
 from mc_nested.arena.action import Cell
 from mc_nested.errors import RunError
-from mc_nested.live.profile.arena import Arena
+from mc_nested.live.profile.arena import Arena, Box
 from mc_nested.live.profile.tables import Dialect, Profile
 
 STACK = 64
@@ -36,8 +36,12 @@ def reset_commands(profile: Profile, start: Cell, blocks: Sequence[str]) -> list
 
 def clear_command(arena: Arena) -> str:
     """Return the command that fills the marked blocks with air, and none outside."""
-    low, high = arena.region
-    return f"/fill {_words(low)} {_words(high)} minecraft:air"
+    return fill_command(arena.region, "air")
+
+
+def fill_command(box: Box, block: str) -> str:
+    """Return the command that fills a box."""
+    return f"/fill {box_text(box)} minecraft:{block}"
 
 
 def floor_commands(arena: Arena, dialect: Dialect) -> list[str]:
@@ -50,11 +54,11 @@ def floor_commands(arena: Arena, dialect: Dialect) -> list[str]:
     if arena.floor is None:
         return []
     (x, y, z), (other_x, _, other_z) = arena.region
-    low, high = (x, y - 1, z), (other_x, y - 1, other_z)
+    floor = (x, y - 1, z), (other_x, y - 1, other_z)
     data = " 0" if dialect == "1.12" else ""
     # A mod's block is named with its namespace, as the debug screen shows it.
     block = arena.floor if ":" in arena.floor else f"minecraft:{arena.floor}"
-    return [f"/fill {_words(low)} {_words(high)} {block}{data} keep"]
+    return [f"/fill {box_text(floor)} {block}{data} keep"]
 
 
 def teleport_command(arena: Arena, cell: Cell, pitch: float) -> str:
@@ -73,8 +77,9 @@ def item_command(dialect: Dialect, slot: int, block: str) -> str:
     return f"/item replace entity @s hotbar.{slot} with minecraft:{block} {STACK}"
 
 
-def _words(block: tuple[int, int, int]) -> str:
-    return " ".join(str(part) for part in block)
+def box_text(box: Box) -> str:
+    """Return a box as commands write it."""
+    return " ".join(str(part) for corner in box for part in corner)
 
 
 MARKER = "mc-nested-arena.txt"

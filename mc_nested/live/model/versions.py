@@ -41,17 +41,12 @@ def draws_text_over_menus(version: str) -> bool:
     return version_numbers(version) >= (1, 21, 9)
 
 
-def is_later_than_known(version: str) -> bool:
-    """Return whether a version is newer than all that are known here."""
-    return version_numbers(version)[:2] > NEWEST
-
-
 def later_version_line(version: str) -> str | None:
     """Return one line about a version that is later than all known ones: how it is played, what to look at.
 
     Return None for any other version.
     """
-    if not is_later_than_known(version):
+    if version_numbers(version)[:2] <= NEWEST:
         return None
     newest = ".".join(map(str, NEWEST))
     return (

@@ -123,11 +123,7 @@ class Overlap:
     def go(self, leg: Leg, after: Leg | None, built: Mapping[Cell, str], shown_id: str) -> bool:
         """Do an action, and begin the walk of the one after it; return whether all came as planned.
 
-        Args:
-            leg: the action.
-            after: the next one; None if it isn't known.
-            built: the cells that hold a block, and its id there.
-            shown_id: the id of the block that is placed.
+        The arguments are those of ``Body.go_on``.
         """
         self.has_pressed, self._action = self.is_under_way, None
         around = Surroundings.seen_at(self._limits.pitch, self._arena.size, built)

@@ -37,8 +37,8 @@ def mismatch(calibrated: CalibratedTable, current: Fingerprint, profile: str) ->
         )
     if calibrated.window and calibrated.window != current.window:
         return (
-            f"profile {profile} was calibrated in a window of {_size(calibrated.window)} pixels, and this one has "
-            f"{_size(current.window)}: make it that size again, or run {again}"
+            f"profile {profile} was calibrated in a window of {size_text(calibrated.window)} pixels, and this one has "
+            f"{size_text(current.window)}: make it that size again, or run {again}"
         )
     scales = calibrated.scales
     if scales is None:
@@ -46,8 +46,8 @@ def mismatch(calibrated: CalibratedTable, current: Fingerprint, profile: str) ->
     largest = largest_gui_scale(current.window) + 1  # one more with Unicode letters
     if scales.gui > largest or scales.debug > scales.gui:
         return (
-            f"profile {profile} names GUI scale {scales}, which no window of {_size(current.window)} pixels can have: "
-            f"run {again}"
+            f"profile {profile} names GUI scale {scales}, which no window of {size_text(current.window)} pixels can "
+            f"have: run {again}"
         )
     if current.scales and scales != current.scales:
         return (
@@ -87,5 +87,6 @@ def check_single_player(title: str, *, is_server_allowed: bool) -> None:
     )
 
 
-def _size(size: tuple[int, int]) -> str:
+def size_text(size: tuple[int, int]) -> str:
+    """Return a width and a height in words."""
     return f"{size[0]} x {size[1]}"

@@ -63,10 +63,6 @@ class WindowTable(ProfileTable):
             raise ValueError(f"not a regular expression ({error}): mend it, or write a part of the title") from error
         return title
 
-    def matches(self, title: str) -> bool:
-        """Return whether a window of this title is the game's."""
-        return re.search(self.title, title) is not None
-
 
 class GameVersion(ProfileTable):
     """Which Minecraft this is."""

@@ -14,8 +14,7 @@ import cv2
 
 from mc_nested.live.devices import Frame, Region
 from mc_nested.live.model.reading import Reading
-from mc_nested.live.recording.format import plain_value
-from mc_nested.live.recording.tape import Call
+from mc_nested.live.recording.format import Call, plain_value
 from mc_nested.live.recording.text_pixels import TextPixels, paint, reads_the_same, text_pixels_of
 from mc_nested.live.vision.chat_region import blank_chat
 from mc_nested.live.vision.debug_screen import read_debug_screen, read_lines, read_position

@@ -3,14 +3,25 @@
 /calls    every call that crossed the devices, in order: what a replay needs
 /events   what happened, for people: keys, buttons, notes and errors, each with its time of day
 /window   pictures of the window, as Foxglove's CompressedImage, the chat blanked
+
+A call is a list of plain values: its name, what it was asked, what it answered. Calls of the thread that plays are in
+their order, and nothing else decides what it does next; so the same calls, answered alike, are the same run.
+
+["now", 12.5]                        the clock's time            ["key", "press", "w"]     a key goes down
+["sleep", 12.55]                     until then                  ["screen", "read", [], answer, pixels]
+["front", true]                      whether it is in front      ["note", "acts", {...}]   what the journal was told
 """
 
 import json
+import threading
+import time
+from collections import deque
 from collections.abc import Mapping
 from dataclasses import asdict, is_dataclass
 from typing import Any
 
 from mc_nested.live.devices import Region
+from mc_nested.live.journal import Fact, NoteKind
 from mc_nested.live.model.reading import Reading, Target
 from mc_nested.live.vision.menu_labels import MenuButton
 
@@ -54,7 +65,43 @@ SCHEMAS = {
 """Each topic's schema: its name, and the JSON Schema of its messages."""
 
 
-def event_of(call: list[Any]) -> dict[str, Any] | None:
+Call = list[Any]
+
+
+class Tape:
+    """Collects calls, for a writer to take.
+
+    It belongs to the thread that makes it: what another thread does, as a watchdog that releases a key, is set down as
+    ``["elsewhere", ...]``, since its place among the others is chance.
+    """
+
+    def __init__(self) -> None:
+        self._thread = threading.get_ident()
+        self._calls: deque[tuple[int, Call]] = deque()
+        self.inside = False
+        """Whether a call is under way whose own calls to the devices are part of it."""
+
+    def add(self, *call: Any) -> None:
+        """Add a call, at the time of now."""
+        if threading.get_ident() != self._thread:
+            call = ("elsewhere", *call)
+        elif self.inside:
+            return
+        self._calls.append((time.time_ns(), list(call)))
+
+    def note(self, kind: NoteKind, /, **facts: Fact) -> None:
+        """Add a note of the journal."""
+        self.add("note", kind, facts)
+
+    def take(self) -> list[tuple[int, Call]]:
+        """Take what was added since the last time, with the time of day in nanoseconds; any thread may do so."""
+        taken: list[tuple[int, Call]] = []
+        while self._calls:
+            taken.append(self._calls.popleft())
+        return taken
+
+
+def event_of(call: Call) -> dict[str, Any] | None:
     """Return the event that a call, as plain values, stands for; None where it is none, as a look at the clock."""
     name, *said = call
     if name == "note":
@@ -106,11 +153,6 @@ def button_of(value: Mapping[str, Any]) -> MenuButton:
         value.get("problem"),
         int(value.get("scale", 1)),
     )
-
-
-def region_of(value: list[int] | None) -> Region | None:
-    """Return a region from its four numbers."""
-    return None if value is None else Region(*value)
 
 
 def _xyz(value: Any) -> tuple[float, float, float]:

@@ -10,7 +10,7 @@ from typing import Generic, ParamSpec, TypeVar
 from mc_nested.errors import McNestedError
 from mc_nested.live.devices import Button, Clipboard, Clock, Devices, Display, Frame, Keyboard, Pointer, Region
 from mc_nested.live.model.reading import Reading
-from mc_nested.live.recording.tape import Tape
+from mc_nested.live.recording.format import Tape
 from mc_nested.live.vision.game_screen import Labels, WindowScreen
 from mc_nested.live.vision.layout import Scales
 from mc_nested.live.vision.menu_labels import MenuButton
@@ -149,16 +149,10 @@ class RecordedScreen(_OnTape[WindowScreen]):
     """
 
     def read(self) -> Reading:
-        with self._asked("read"):
-            reading = self._device.read()
-        self._tape.add("screen", "read", [], reading, self._device.last_look)
-        return reading
+        return self._looked("read", self._device.read)
 
     def read_position(self) -> tuple[float, float, float] | None:
-        with self._asked("read_position"):
-            position = self._device.read_position()
-        self._tape.add("screen", "read_position", [], position, self._device.last_look)
-        return position
+        return self._looked("read_position", self._device.read_position)
 
     def shows_world(self) -> bool:
         return self._answer("shows_world", self._device.shows_world)
@@ -186,6 +180,12 @@ class RecordedScreen(_OnTape[WindowScreen]):
 
     def seen_scales(self) -> Scales | None:
         return self._answer("seen_scales", self._device.seen_scales)
+
+    def _looked(self, name: str, look: Callable[[], Answer]) -> Answer:
+        with self._asked(name):
+            answer = look()
+        self._tape.add("screen", name, [], answer, self._device.last_look)
+        return answer
 
     def _answer(self, name: str, ask: Callable[Asked, Answer], *args: Asked.args, **kwargs: Asked.kwargs) -> Answer:
         with self._asked(name):

@@ -3,7 +3,7 @@
 The thread that plays only sets calls down. A thread of its own packs and writes them four times a second, so a run that
 is killed has lost less than its last second. Where the disk refuses, the recording ends, and the run goes on.
 
-A run hands its devices, screens and notes to a Recording; NoRecording keeps nothing.
+A run hands it its devices, screens and notes, and uses what it gets back.
 """
 
 import threading
@@ -11,45 +11,15 @@ import time
 from collections.abc import Callable, Mapping
 from pathlib import Path
 from types import TracebackType
-from typing import Protocol
 
 from mc_nested.live.devices import Devices
-from mc_nested.live.journal import Fact, Journal, NoJournal, NoteKind
+from mc_nested.live.input.stops import Stop
+from mc_nested.live.journal import Fact, NoteKind
 from mc_nested.live.recording.call_encoder import CallEncoder, KeptPicture
-from mc_nested.live.recording.format import SUFFIX, event_of
+from mc_nested.live.recording.format import SUFFIX, Tape, event_of
 from mc_nested.live.recording.recorded_devices import RecordedScreen, recorded
 from mc_nested.live.recording.recording_file import PartWriter, Timed
-from mc_nested.live.recording.tape import Tape
 from mc_nested.live.vision.game_screen import GameScreen, WindowScreen
-
-Stop = Callable[[str], None]
-
-
-class Recording(Journal, Protocol):
-    """Sits between a run and its window, and records what passes; and the notes of a journal."""
-
-    def devices(self, devices: Devices) -> Devices:
-        """Return the same devices, recorded."""
-
-    def screen(self, screen: GameScreen) -> GameScreen:
-        """Return the same screen, recorded."""
-
-    def stopping(self, stop: Stop) -> Stop:
-        """Return what stops the run by a person's will, recorded."""
-
-
-class NoRecording(NoJournal):
-    """Sits between a run and its window, and records nothing."""
-
-    def devices(self, devices: Devices) -> Devices:
-        return devices
-
-    def screen(self, screen: GameScreen) -> GameScreen:
-        return screen
-
-    def stopping(self, stop: Stop) -> Stop:
-        return stop
-
 
 WRITE_EVERY_S = 0.25
 
@@ -62,7 +32,7 @@ KEPT_BYTES = 500_000_000
 
 
 class Recorder:
-    """Records what crosses a window's devices, as a context manager.
+    """Sits between a run and its window, as a context manager: records what passes, and the notes of a journal.
 
     Args:
         folder: a new or empty one, for the recording's files.

@@ -92,8 +92,8 @@ def _read_part(part: Path) -> Iterator[TimedCall | KeptPicture | PartEnd]:
     topics: dict[int, str] = {}
     is_closed = False
     for record in _records(part):
-        if isinstance(record, Damage):
-            yield PartEnd(part, record.problem)
+        if isinstance(record, str):
+            yield PartEnd(part, record)
             return
         if isinstance(record, Channel):
             topics[record.id] = record.topic
@@ -118,15 +118,8 @@ def _message(topic: str, data: bytes) -> Iterator[TimedCall | KeptPicture]:
         yield TimedCall(at, call)
 
 
-@dataclass(frozen=True)
-class Damage:
-    """Damage that ends the reading of a file early."""
-
-    problem: str
-
-
 def _records(part: Path) -> Iterator[Any]:
-    """Return the records of a file, then, unless it was closed, a Damage.
+    """Return the records of a file, then, if it ends early, what is damaged, as a text.
 
     Raise RecordingError if the file can't be opened.
     """
@@ -138,7 +131,7 @@ def _records(part: Path) -> Iterator[Any]:
             except _DAMAGE as error:
                 # What ends in the middle of a record was read to its end.
                 is_cut = isinstance(error, EndOfFile) or file.tell() >= size
-                yield Damage(ENDS_EARLY if is_cut else f"damaged: {' '.join(str(error).split())[:100]}")
+                yield ENDS_EARLY if is_cut else f"damaged: {' '.join(str(error).split())[:100]}"
     except OSError as error:
         raise RecordingError(f"{part}: can't be read ({error.strerror or error})") from error
 

@@ -16,11 +16,10 @@ import numpy as np
 from mc_nested.arena.action import Action
 from mc_nested.arena.scenario_file import parse_scenario
 from mc_nested.errors import LiveError, RecordingError
-from mc_nested.live.connection import GameConnection
+from mc_nested.live.connection import GameConnection, overlay_of
 from mc_nested.live.devices import Frame
 from mc_nested.live.input.input_controller import InputController
 from mc_nested.live.live_game import LiveGame
-from mc_nested.live.profile.overlay import overlay_of
 from mc_nested.live.profile.store import parse_profile
 from mc_nested.live.profile.tables import Profile
 from mc_nested.live.recording.call_encoder import KeptPicture

@@ -14,7 +14,7 @@ from mc_nested.errors import RecordingError
 from mc_nested.live.devices import Frame, Region
 from mc_nested.live.model.reading import Reading
 from mc_nested.live.recording.call_encoder import KeptPicture
-from mc_nested.live.recording.format import button_of, plain_value, position_of, reading_of, region_of
+from mc_nested.live.recording.format import button_of, plain_value, position_of, reading_of
 from mc_nested.live.recording.replayed_devices import OnReplayedTape, ReplayedTape
 from mc_nested.live.recording.text_pixels import OUTSIDE, TextPixels, paint
 from mc_nested.live.vision.font import Font
@@ -93,10 +93,10 @@ class PixelReader:
         if frame is None:
             raise ValueError("a picture that is none")
         height, width = self.canvas.shape[:2]
-        region = region_of(picture.region) or Region(0, 0, width, height)
+        region = Region(*picture.region) if picture.region else Region(0, 0, width, height)
         self.canvas[:] = OUTSIDE
         self._painted = [slice(0, height)]
-        part = self.canvas[region.top : region.top + region.height, region.left : region.left + region.width]
+        part = self.canvas[region.slices]
         if part.shape != frame.shape:
             raise ValueError("a picture of another size")
         part[:] = frame
@@ -123,9 +123,7 @@ class _Canvas:
 
     def grab(self, region: Region | None = None) -> Frame:
         canvas = self._reader.canvas
-        if region is None:
-            return canvas
-        return canvas[region.top : region.top + region.height, region.left : region.left + region.width]
+        return canvas if region is None else canvas[region.slices]
 
 
 class ReplayedScreen:

@@ -5,7 +5,7 @@ import importlib.metadata
 import platform
 import shutil
 from collections.abc import Callable, Iterator, Mapping
-from contextlib import AbstractContextManager, contextmanager
+from contextlib import contextmanager
 from pathlib import Path
 
 import platformdirs
@@ -14,7 +14,7 @@ import tomlkit
 from mc_nested.live.devices import DesktopArea, Devices
 from mc_nested.live.profile.tables import Profile
 from mc_nested.live.recording.format import FORMAT, SUFFIX
-from mc_nested.live.recording.recorder import NoRecording, Recorder, Recording
+from mc_nested.live.recording.recorder import Recorder
 
 MOST_RECORDINGS = 10
 """Recordings that are kept where they lie by default; the oldest one makes room for a new one."""
@@ -22,20 +22,10 @@ MOST_RECORDINGS = 10
 UNKNOWN = "unknown"
 """What a fact is where the system doesn't say."""
 
-OpenRecorder = Callable[[Profile, Devices], AbstractContextManager[Recording]]
-"""Opens the recorder of a window that is played in with a profile."""
-
 
 def is_recording(path: Path) -> bool:
     """Return whether a file, or a folder's files, are named as those of a recording."""
     return any(path.glob(f"*{SUFFIX}")) if path.is_dir() else path.suffix == SUFFIX
-
-
-@contextmanager
-def no_recorder(profile: Profile, devices: Devices) -> Iterator[Recording]:
-    """Record nothing."""
-    del profile, devices
-    yield NoRecording()
 
 
 def recordings_folder() -> Path:
@@ -48,38 +38,38 @@ def kept_recordings() -> list[Path]:
     folder = recordings_folder()
     if not folder.is_dir():
         return []
-    found = [
-        each for each in folder.iterdir() if each.suffix == SUFFIX or (each.is_dir() and any(each.glob(f"*{SUFFIX}")))
-    ]
-    return sorted(found, key=lambda each: (each.stat().st_mtime_ns, each.name))
+    return sorted(filter(is_recording, folder.iterdir()), key=lambda each: (each.stat().st_mtime_ns, each.name))
 
 
-def recorder_opener(
-    where: Path | None, what: str, say: Callable[[str], None], facts: Mapping[str, str] | None = None
-) -> OpenRecorder:
-    """Return a function that opens recorders for a run.
+@contextmanager
+def open_recorder(
+    where: Path | None,
+    what: str,
+    say: Callable[[str], None],
+    profile: Profile,
+    devices: Devices,
+    facts: Mapping[str, str],
+) -> Iterator[Recorder | None]:
+    """Open the recorder of a run in a window; yields None where nothing can be recorded.
 
     Args:
         where: a new folder for the recording; None for one by its date among the others.
         what: the run, in a word or two, as "train-line".
         say: shows the person one line, where nothing can be recorded.
+        profile: what it is played with.
+        devices: the window's.
         facts: more of the run: its scenario as TOML, whether a server is allowed.
     """
-
-    @contextmanager
-    def opened(profile: Profile, devices: Devices) -> Iterator[Recording]:
-        said = {**_facts(what, profile, devices), **(facts or {})}
-        folder = where or _new_folder(what)
-        try:
-            recorder = Recorder(folder, said, devices.display.size(), say)
-        except OSError as error:
-            say(f"nothing is recorded: {folder}: {error.strerror or error}")
-            yield NoRecording()
-            return
-        with recorder:
-            yield recorder
-
-    return opened
+    said = {**_facts(what, profile, devices), **facts}
+    folder = where or _new_folder(what)
+    try:
+        recorder = Recorder(folder, said, devices.display.size(), say)
+    except OSError as error:
+        say(f"nothing is recorded: {folder}: {error.strerror or error}")
+        yield None
+        return
+    with recorder:
+        yield recorder
 
 
 def versions_here() -> dict[str, str]:

@@ -11,15 +11,13 @@ from typing import Any
 
 import numpy as np
 
-from mc_nested.arrays import Bools
 from mc_nested.live.devices import Frame
 from mc_nested.live.model.reading import Reading
 from mc_nested.live.vision.debug_screen import read_lines, read_position
 from mc_nested.live.vision.fact_lines import VALUES
 from mc_nested.live.vision.font import Font
-from mc_nested.live.vision.glyph_grid import GLYPH_ROWS, GlyphGrid
-from mc_nested.live.vision.layout import Overlay
-from mc_nested.live.vision.overlay import LAYOUTS
+from mc_nested.live.vision.glyph_grid import GLYPH_ROWS, GlyphGrid, dots_of
+from mc_nested.live.vision.layout import LAYOUTS, Overlay
 from mc_nested.live.vision.screen_lines import ScreenLines
 from mc_nested.live.vision.screen_reader import Look
 from mc_nested.live.vision.text_lines import columns_of, ink_of
@@ -97,22 +95,18 @@ def paint(canvas: Frame, pixels: TextPixels) -> None:
     """Draw the lines onto a picture of the whole window, (height, width, 3), each on its box, cut off at the edges."""
     scale, box = pixels.overlay.scale, pixels.overlay.layout.box
     for line in pixels.lines:
-        ink = _dots(line.columns)
+        ink = dots_of(line.columns)
         before, behind = 1 + _BESIDE, box.behind + _BESIDE
         dots = np.full((GLYPH_ROWS, before + ink.shape[1] + behind, 3), OUTSIDE, np.uint8)
         dots[:, _BESIDE : dots.shape[1] - _BESIDE] = box.grey
         inside = dots[:, before : dots.shape[1] - behind]
         inside[ink] = pixels.overlay.colour[::-1]
         if line.values:
-            inside[_dots(line.values)] = VALUES[0][::-1]
+            inside[dots_of(line.values)] = VALUES[0][::-1]
         left = line.first - before
         shown = dots[:, max(0, -left) :].repeat(scale, 0).repeat(scale, 1)
         part = canvas[line.row * scale :, max(0, left) * scale :][: shown.shape[0], : shown.shape[1]]
         part[:] = shown[: part.shape[0], : part.shape[1]]
-
-
-def _dots(columns: bytes) -> Bools:
-    return np.unpackbits(np.frombuffer(columns, np.uint8)[np.newaxis], axis=0, bitorder="little").astype(bool)
 
 
 def reads_the_same(pixels: TextPixels, look: Look, answer: object, font: Font) -> bool:

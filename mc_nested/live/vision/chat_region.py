@@ -69,14 +69,14 @@ def without_chat(frame: Frame, scale: int | None, opaque: Sequence[Region] = ())
     height, width = frame.shape[:2]
     blank_chat(blanked, (width, height), scale)
     for region in opaque:
-        blanked[_within(region)] = frame[_within(region)]
+        blanked[region.slices] = frame[region.slices]
     return blanked
 
 
 def blank_chat(frame: Frame, size: tuple[int, int], scale: int | None, left: int = 0, top: int = 0) -> None:
     """Blank the chat on a picture of a part of a window of that size, whose corner is at ``left`` and ``top`` there."""
     for region in chat_regions(size, scale):
-        frame[_within(Region(region.left - left, region.top - top, region.width, region.height))] = BLANK
+        frame[Region(region.left - left, region.top - top, region.width, region.height).slices] = BLANK
 
 
 def blanked_share(size: tuple[int, int], scale: int | None) -> float:
@@ -84,7 +84,7 @@ def blanked_share(size: tuple[int, int], scale: int | None) -> float:
     width, height = size
     is_blank = np.zeros((height, width), dtype=np.bool_)
     for region in chat_regions(size, scale):
-        is_blank[_within(region)] = True
+        is_blank[region.slices] = True
     return float(is_blank.mean())
 
 
@@ -95,12 +95,6 @@ def _largest(size: tuple[int, int]) -> int:
     """
     largest = largest_gui_scale(size)
     return largest + largest % 2
-
-
-def _within(region: Region) -> tuple[slice, slice]:
-    """Return a region's rows and columns; what lies left of a frame or above it is cut off."""
-    top, left = max(0, region.top), max(0, region.left)
-    return slice(top, max(top, region.top + region.height)), slice(left, max(left, region.left + region.width))
 
 
 KEPT = 3

@@ -19,7 +19,7 @@ from mc_nested.arrays import Bools
 from mc_nested.live.devices import Frame, Region
 from mc_nested.live.vision.debug_boxes import ALPHA, GREY, TITLE_GREY
 from mc_nested.live.vision.font import Font
-from mc_nested.live.vision.glyph_grid import GLYPH_ROWS, GlyphGrid
+from mc_nested.live.vision.glyph_grid import GLYPH_ROWS, GlyphGrid, dots_in, dots_of
 from mc_nested.live.vision.layout import DISABLED, GLUE, INK_SPREAD, WHITE
 
 _GROUNDS = ((), (GREY,), (TITLE_GREY,), (GREY, GREY))
@@ -96,9 +96,8 @@ class CoveredLabels:
     @cached_property
     def _shown(self) -> tuple[tuple[ShownDots, bool], ...]:
         """The dots that may be white labels', and grey ones'."""
-        step, offset, left = self.dots.scale, self.dots.scale // 2, self._left
         right = self.dots.columns // 2 + _ROOM
-        picture = np.ascontiguousarray(self.dots.frame[offset::step, offset::step][:, left:right])
+        picture = np.ascontiguousarray(dots_in(self.dots.frame, self.dots.scale)[:, self._left : right])
         if picture.size == 0:
             return ()
         return tuple((ShownDots(picture, colour[0]), colour == WHITE) for colour in (WHITE, DISABLED))
@@ -106,7 +105,7 @@ class CoveredLabels:
 
 def casting_dots(columns: bytes) -> NDArray[np.uint8]:
     """Return which of a label's dots (8, columns) have their shadow seen beside them."""
-    glyphs = np.unpackbits(np.frombuffer(columns, np.uint8)[np.newaxis], axis=0, bitorder="little")
+    glyphs = dots_of(columns).astype(np.uint8)
     casting: NDArray[np.uint8] = glyphs.copy()
     casting[:-1, :-1] &= 1 - glyphs[1:, 1:]
     return casting
@@ -182,7 +181,7 @@ def pause_region(size: tuple[int, int], scale: int) -> Region:
 
 def shows_pause(frame: Frame, scale: int, font: Font) -> bool:
     """Return whether a picture of that region shows the words, most of them, or others there that nothing covers."""
-    dots = np.ascontiguousarray(frame[scale // 2 :: scale, scale // 2 :: scale])
+    dots = np.ascontiguousarray(dots_in(frame, scale))
     if dots.shape[0] < _ABOVE + GLYPH_ROWS + _BELOW or dots.shape[1] < _ROOM_FOR_WORDS:
         return False
     shown = ShownDots(dots, WHITE[0])

@@ -18,7 +18,7 @@ import numpy as np
 from mc_nested.arrays import Bools
 from mc_nested.live.devices import Frame, Region
 from mc_nested.live.vision.fact_lines import VALUES
-from mc_nested.live.vision.glyph_grid import GLYPH_ROWS
+from mc_nested.live.vision.glyph_grid import GLYPH_ROWS, dots_in
 from mc_nested.live.vision.layout import BOXES, GREEN, PLAIN, RED, VANILLA, WHITE, Colour
 from mc_nested.live.vision.text_lines import ink_of
 
@@ -53,7 +53,7 @@ def line_boxes(frame: Frame, scale: int) -> list[Region]:
     ``scale`` is the GUI scale. What has exactly the letters' colour beside a line is taken for a part of it. Empty
     where there is no debug screen. Where a line's end isn't seen, as behind a notice, its box ends there.
     """
-    dots = np.ascontiguousarray(frame[scale // 2 :: scale, scale // 2 :: scale])
+    dots = np.ascontiguousarray(dots_in(frame, scale))
     is_ink = has_letters(dots)
     may_be_ground = cv2.inRange(dots, (_DARKEST,) * 3, (BRIGHTEST,) * 3) > 0
     boxes = []
@@ -129,7 +129,7 @@ def ground_parts(frame: Frame, scale: int) -> list[GroundPart]:
     ``scale`` is that of the debug screen. What is written beside a line on nothing but such ground is taken for a part
     of it.
     """
-    dots = np.ascontiguousarray(frame[scale // 2 :: scale, scale // 2 :: scale])
+    dots = np.ascontiguousarray(dots_in(frame, scale))
     columns = dots.shape[1]
     parts = []
     for picture, is_right in ((dots, False), (np.ascontiguousarray(dots[:, ::-1]), True)):

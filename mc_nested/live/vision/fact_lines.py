@@ -30,6 +30,7 @@ from mc_nested.live.vision.text_lines import (
     decode,
     ink_of,
     pixels_from,
+    up_to_break,
 )
 
 VALUES = (WHITE, GLUE, PURE_GREEN, PURE_RED)
@@ -85,10 +86,10 @@ def _fact_in(
     boxed = np.bitwise_and.reduce(ink | ground, axis=0).tobytes()
     name_columns, value_columns = columns_of(names)[:read], columns_of(values)[:read]
     at = len(value_columns) - len(value_columns.lstrip(b"\0"))
-    name, last = decode(_up_to_break(name_columns[:at], boxed), font)
+    name, last = decode(up_to_break(name_columns[:at], boxed), font)
     text = name
-    if at < min(_end_of(boxed), len(value_columns)):
-        text, last = _with_value(name, at, _up_to_break(value_columns, boxed), font, last)
+    if at < len(boxed_values := up_to_break(value_columns, boxed)):
+        text, last = _with_value(name, at, boxed_values, font, last)
         if any(name_columns[at : last + 1]):  # something else is written over it
             text = name + UNKNOWN
     is_whole = _is_whole(picture, columns_of(ink), ground > 0, boxed, last)
@@ -110,15 +111,6 @@ def _with_value(name: str, at: int, columns: bytes, font: Font, last: int) -> tu
 def _lead(font: Font, char: str) -> int:
     columns = font.glyphs[char]
     return len(columns) - len(columns.lstrip(b"\0"))
-
-
-def _end_of(boxed: bytes) -> int:
-    end = boxed.find(0)
-    return len(boxed) if end < 0 else end
-
-
-def _up_to_break(columns: bytes, boxed: bytes) -> bytes:
-    return columns[: _end_of(boxed)]
 
 
 def _is_whole(picture: Frame, ink: bytes, ground: Bools, boxed: bytes, last: int) -> bool:

@@ -2,27 +2,24 @@
 
 from typing import Protocol
 
-from mc_nested.live.devices import Display, Frame, Region
+from mc_nested.live.devices import Display, Frame
 from mc_nested.live.model.reading import Reading
 from mc_nested.live.model.versions import draws_text_over_menus
 from mc_nested.live.vision.covered_label import pause_region, shows_pause
 from mc_nested.live.vision.font import SPACE, Font
-from mc_nested.live.vision.glyph_grid import GLYPH_ROWS, GlyphGrid
-from mc_nested.live.vision.layout import INK_SPREAD, WHITE, Overlay, Scales, largest_gui_scale
+from mc_nested.live.vision.glyph_grid import GLYPH_ROWS, GlyphGrid, dots_in
+from mc_nested.live.vision.layout import INK_SPREAD, STANDIN, WHITE, Overlay, Scales, largest_gui_scale
 from mc_nested.live.vision.menu_labels import MenuButton, MenuLabels
 from mc_nested.live.vision.overlay import SCALES, find_overlay
 from mc_nested.live.vision.screen_reader import Look, ScreenReader
-from mc_nested.live.vision.standin import STANDIN
 from mc_nested.live.vision.window_bottom import (
     FIRST_COLUMNS,
     HotbarLook,
     begins_a_line,
-    bottom_dots,
     bottom_region,
     hotbar_look,
     reads_as,
     typed_dots,
-    typed_line_dots,
     typed_line_region,
 )
 
@@ -194,14 +191,14 @@ class WindowScreen:
         if scale is None and not self._text_over_menus:
             scale = self._seen_gui_scale()
         if scale is not None:
-            dots = bottom_dots(self._display.grab(bottom_region(size, scale)), scale)
+            dots = dots_in(self._display.grab(bottom_region(size, scale)), scale)
             look = hotbar_look(dots, -(-size[1] // scale))
             if look or not self._needs_hotbar:
                 return look, dots
         frame = self._display.grab()
         for scale in range(largest_gui_scale(size) + 1, 0, -1):
             region = bottom_region(size, scale)
-            dots = bottom_dots(_part(frame, region), scale)
+            dots = dots_in(frame[region.slices], scale)
             if look := hotbar_look(dots, -(-size[1] // scale)):
                 self._gui = size, scale
                 return look, dots
@@ -221,8 +218,4 @@ class WindowScreen:
 
     def _typed_line(self, columns: int | None = None) -> Frame:
         scale = self.gui_scale()
-        return typed_line_dots(self._display.grab(typed_line_region(self._display.size(), scale, columns)), scale)
-
-
-def _part(frame: Frame, region: Region) -> Frame:
-    return frame[max(0, region.top) : region.top + region.height, region.left : region.left + max(0, region.width)]
+        return dots_in(self._display.grab(typed_line_region(self._display.size(), scale, columns)), scale)

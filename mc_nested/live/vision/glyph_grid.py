@@ -13,6 +13,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from mc_nested.arrays import Bools
 from mc_nested.live.devices import Frame
 
 GLYPH_ROWS = 8
@@ -20,6 +21,16 @@ _GREEN = 1
 
 GridPosition = tuple[int, int]
 """A row and a column of dots."""
+
+
+def dots_in(frame: Frame, scale: int) -> Frame:
+    """Return the dots of a picture (height, width, 3): the pixel of each that is read."""
+    return frame[scale // 2 :: scale, scale // 2 :: scale]
+
+
+def dots_of(columns: bytes) -> Bools:
+    """Return columns of dots, a byte each, as dots (8, columns)."""
+    return np.unpackbits(np.frombuffer(columns, np.uint8)[np.newaxis], axis=0, bitorder="little").astype(bool)
 
 
 @dataclass(frozen=True)

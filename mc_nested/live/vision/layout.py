@@ -3,6 +3,7 @@
 A reader has to know this before it reads a line (FACTS: The F3 debug screen).
 """
 
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import Literal, NamedTuple
 
@@ -88,6 +89,19 @@ VANILLA = ScreenLayout(
 
 BOXES = replace(VANILLA, name="boxes", right_edge=5, has_facts=True)
 """The game's own from 26.4 on."""
+
+STANDIN = ScreenLayout(
+    name="stand-in",
+    pitch=10,
+    text_colour=WHITE,
+    box=Box(grey=110, behind=1),
+    has_one_grid=False,
+    right_edge=None,
+    has_target_column=True,
+)
+"""The stand-in's (FACTS: The stand-in)."""
+
+LAYOUTS: Mapping[LayoutName, ScreenLayout] = {layout.name: layout for layout in (VANILLA, BOXES, STANDIN)}
 
 
 @dataclass(frozen=True)

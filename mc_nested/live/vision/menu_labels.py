@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from mc_nested.live.devices import Frame
 from mc_nested.live.vision.covered_label import CoveredLabels
 from mc_nested.live.vision.font import Font
-from mc_nested.live.vision.glyph_grid import GLYPH_ROWS, GlyphGrid
+from mc_nested.live.vision.glyph_grid import GLYPH_ROWS, GlyphGrid, dots_of
 from mc_nested.live.vision.layout import DISABLED, INK_SPREAD, PLAIN, UNDER_MOUSE, WHITE, Colour
 from mc_nested.live.vision.overlay import SCALES
 
@@ -102,7 +102,7 @@ class MenuLabels:
 
     def _labels(self, text: str) -> list[_Label]:
         columns = self._font.columns(text)
-        bits = np.unpackbits(np.frombuffer(columns, np.uint8)[np.newaxis], axis=0, bitorder="little").astype(bool)
+        bits = dots_of(columns)
         seen: dict[tuple[int, int], _Label] = {}
         for dots in self._dots:
             for row, column in dots.find(columns[:-1]):

@@ -5,7 +5,6 @@ column.
 """
 
 import re
-from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -14,9 +13,8 @@ from numpy.typing import NDArray
 from mc_nested.live.devices import Frame
 from mc_nested.live.vision.fact_lines import fact_from
 from mc_nested.live.vision.font import Font
-from mc_nested.live.vision.glyph_grid import GlyphGrid, GridPosition
-from mc_nested.live.vision.layout import BOXES, INK_SPREAD, VANILLA, WHITE, Colour, LayoutName, Overlay, ScreenLayout
-from mc_nested.live.vision.standin import STANDIN
+from mc_nested.live.vision.glyph_grid import GlyphGrid, GridPosition, dots_of
+from mc_nested.live.vision.layout import BOXES, INK_SPREAD, STANDIN, VANILLA, WHITE, Colour, Overlay
 from mc_nested.live.vision.text_lines import UNKNOWN, Line, ink_of, is_text, positions_of
 
 SCALES = (8, 7, 6, 5, 4, 3, 2, 1)
@@ -152,9 +150,8 @@ def version_in(text: str) -> tuple[int, ...] | None:
 def _ink_of(dots: GlyphGrid, font: Font, label: str, position: GridPosition) -> tuple[Colour, NDArray[np.bool_]]:
     """Return the colour of a label that stands there, and which of its dots (8, columns) are ink."""
     row, column = position
-    glyphs = np.frombuffer(font.columns(label).rstrip(b"\0"), np.uint8)
-    ink = np.unpackbits(glyphs[np.newaxis], axis=0, bitorder="little").astype(bool)
-    blue, green, red = np.median(dots.strip(row, column, column + len(glyphs))[ink], axis=0).astype(int)
+    ink = dots_of(font.columns(label).rstrip(b"\0"))
+    blue, green, red = np.median(dots.strip(row, column, column + ink.shape[1])[ink], axis=0).astype(int)
     return (int(red), int(green), int(blue)), ink
 
 
@@ -162,6 +159,3 @@ def _known_beside(dots: GlyphGrid, font: Font, overlay: Overlay, position: GridP
     """Return how many of the lines just above and below are text at this layout's pitch."""
     row, column = position
     return sum(is_text(dots, font, overlay, (near, column)) for near in (row - overlay.pitch, row + overlay.pitch))
-
-
-LAYOUTS: Mapping[LayoutName, ScreenLayout] = {layout.name: layout for layout in (VANILLA, BOXES, STANDIN)}

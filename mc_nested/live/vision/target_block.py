@@ -32,7 +32,6 @@ from mc_nested.live.vision.screen_lines import (
     only_line,
     shown,
 )
-from mc_nested.live.vision.standin import check_right_column_is_empty, id_above
 from mc_nested.live.vision.text_lines import UNKNOWN, Line
 
 _BESIDE = rf"(?:[ {UNKNOWN}].*)?"
@@ -69,7 +68,7 @@ def target_block(lines: DebugLines) -> Target | None:
     if looking.text.startswith("Looking at block"):
         raise Unreadable(f"the 'Targeted Block' lines of the block looked at can't be seen: {CLEAR}")
     # In the right column only the stand-in writes it.
-    return Target(position, _id_in_right_column(lines) if looking.is_left else id_above(lines, looking))
+    return Target(position, _id_in_right_column(lines) if looking.is_left else _id_above(lines, looking))
 
 
 def _targeted(lines: DebugLines, targeted: Line) -> Target:
@@ -129,7 +128,7 @@ def _check_nothing_hidden(lines: DebugLines) -> None:
         if lines.holds(part):
             raise Unreadable(f"of the block looked at only {part.strip()!r} can be seen: {CLEAR}")
     if lines.layout.has_target_column:
-        check_right_column_is_empty(lines)
+        _check_target_column_is_empty(lines)
     else:
         _check_no_id_alone(lines)
         _check_column_is_seen(lines)
@@ -163,6 +162,46 @@ def _check_no_id_alone(lines: DebugLines) -> None:
             raise Unreadable(f"what {shown(line.text)} belongs to can't be seen: {CLEAR}")
     if lines.holds("#minecraft:") and not lines.holds("Targeted "):
         raise Unreadable(f"which block the tags in the right column belong to can't be seen: {CLEAR}")
+
+
+_NAME = re.compile(r"[a-z0-9_]+")
+_PROPERTY = re.compile(rf"[{UNKNOWN}a-z_0-9]+: .*")
+
+_MOST_PROPERTIES = 12
+"""Lines between a block's name and its position: no block has more properties."""
+
+
+def _id_above(lines: DebugLines, looking: Line) -> str:
+    """Return the id of the block whose position is in the line ``looking``.
+
+    Every line of that column ends where its first one does, so a position that ends elsewhere is not seen whole.
+    """
+    if looking.end != _first_on_the_right(lines).end:
+        raise Unreadable(f"the end of {shown(looking.text)} may be covered: {CLEAR}")
+    for above in range(1, _MOST_PROPERTIES + 1):
+        line = lines.ending(looking.row - above * lines.layout.pitch, looking.end)
+        if line is not None and not line.has_value and _NAME.fullmatch(line.text):
+            check_whole(line)
+            return line.text
+        if line is not None and not _PROPERTY.fullmatch(line.text):
+            raise Unreadable(f"the block's name reads {shown(line.text)}: {CLEAR}")
+    raise Unreadable(f"the name of the block looked at can't be seen: {CLEAR}")
+
+
+def _check_target_column_is_empty(lines: DebugLines) -> None:
+    """Raise Unreadable unless the right column's first line is alone, as when no block is looked at."""
+    first, pitch = _first_on_the_right(lines), lines.layout.pitch
+    for row in range(first.row + 2 * pitch - 1, first.row + (_MOST_PROPERTIES + 4) * pitch, pitch):
+        line = lines.ending(row, first.end)
+        if line and len(line.text.replace(UNKNOWN, "")) > 1:
+            raise Unreadable(f"what {shown(line.text)} in the right column belongs to can't be seen: {CLEAR}")
+
+
+def _first_on_the_right(lines: DebugLines) -> Line:
+    first = only_line(lines, "Renderer: ")
+    if first is None:
+        raise Unreadable(f"the upper right of the debug screen can't be seen: {CLEAR}")
+    return first
 
 
 BOX_TITLE = "Looking At Block"

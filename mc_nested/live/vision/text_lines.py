@@ -107,7 +107,7 @@ def _line_in(
     """
     row, first = start
     strip = _strip_of(_picture(pixels), colour)
-    columns = _in_the_box(strip)
+    columns = up_to_break(strip.ink, strip.boxed)
     text, last = decode(columns, font)
     if edge is not None and first + last > edge:
         aligned, end = decode(columns[: edge - first + 1], font)
@@ -121,7 +121,8 @@ def is_text(dots: GlyphGrid, font: Font, overlay: Overlay, start: GridPosition) 
     row, first = start
     if not (0 <= row < dots.rows and 0 <= first < dots.columns):
         return False
-    text, _ = decode(_in_the_box(_strip_of(dots.strip(row, first, first + _THREE_LETTERS), overlay.colour)), font)
+    strip = _strip_of(dots.strip(row, first, first + _THREE_LETTERS), overlay.colour)
+    text, _ = decode(up_to_break(strip.ink, strip.boxed), font)
     return len(text) > 2 and UNKNOWN not in text[:3]
 
 
@@ -213,10 +214,10 @@ def _strip_of(picture: Frame, *colours: Colour) -> _Strip:
     return _Strip(picture, columns_of(ink), np.bitwise_and.reduce(ink | ground, axis=0).tobytes())
 
 
-def _in_the_box(strip: _Strip) -> bytes:
-    """Return the ink from the first column on, as far as the box goes without a break."""
-    end = strip.boxed.find(0)
-    return strip.ink if end < 0 else strip.ink[:end]
+def up_to_break(columns: bytes, boxed: bytes) -> bytes:
+    """Return the columns from the first one on, as far as the box goes without a break."""
+    end = boxed.find(0)
+    return columns if end < 0 else columns[:end]
 
 
 def ink_of(picture: Frame, *colours: Colour) -> NDArray[np.uint8]:

@@ -17,19 +17,9 @@ from numpy.typing import NDArray
 
 from mc_nested.live.devices import Frame, Region
 from mc_nested.live.vision.font import Font
-from mc_nested.live.vision.glyph_grid import GLYPH_ROWS
-from mc_nested.live.vision.layout import (
-    AQUA,
-    GOLD,
-    GREEN,
-    GREY,
-    INK_SPREAD,
-    LIGHT_PURPLE,
-    PLAIN,
-    RED,
-    YELLOW,
-    Colour,
-)
+from mc_nested.live.vision.glyph_grid import GLYPH_ROWS, dots_of
+from mc_nested.live.vision.layout import AQUA, GOLD, GREEN, GREY, INK_SPREAD, LIGHT_PURPLE, PLAIN, RED, YELLOW, Colour
+from mc_nested.live.vision.text_lines import ink_of
 
 FIRST_COLUMNS = 8
 """Columns of dots that hold the first character of a line, most being five wide, and its shadow."""
@@ -68,7 +58,7 @@ _LEFT_FREE = 14
 
 
 def typed_line_region(size: tuple[int, int], scale: int, columns: int | None = None) -> Region:
-    """Return where the line stands in a window (width, height), with a row of dots below it for its shadow.
+    """Return where the line stands in a window (width, height), with a row of dots below it for its shadow: nine rows.
 
     From its first letter on: so many ``columns`` of dots, or all of them.
     """
@@ -76,11 +66,6 @@ def typed_line_region(size: tuple[int, int], scale: int, columns: int | None = N
     top, left = (-(-height // scale) - _ABOVE_EDGE) * scale, _LEFT * scale
     right = width - left if columns is None else left + columns * scale
     return Region(left, top, right - left, min((GLYPH_ROWS + 1) * scale, height - top))
-
-
-def typed_line_dots(frame: Frame, scale: int) -> Frame:
-    """Return the dots of a picture of that region: (9, columns, 3)."""
-    return frame[scale // 2 :: scale, scale // 2 :: scale]
 
 
 def begins_a_line(dots: Frame, font: Font) -> bool:
@@ -109,7 +94,7 @@ def _slanted(font: Font) -> frozenset[bytes]:
     """Return the font's letters slanted, without what leans out of their own columns."""
     letters = set()
     for glyph in font.glyphs.values():
-        dots = np.unpackbits(np.frombuffer(glyph, np.uint8)[np.newaxis], axis=0, bitorder="little")
+        dots = dots_of(glyph)
         for slant in _SLANTS:
             room = np.pad(dots, ((0, 0), (1, 1)))
             leant = np.stack([np.roll(row, right) for row, right in zip(room, slant, strict=True)])[:, 1:-1]
@@ -170,9 +155,6 @@ _LEAST = 60
 _LEAST_UNDER_CHAT = 40
 """The same in the lowest row, which has specks, and counts of items."""
 
-_BAR_LEFT = 4
-"""GUI pixels from the window's side to the first letter of the line being typed."""
-
 _RED = ((0x50, 0, 0, 0x60), (0x80, 0x30, 0x30, 0xA0))
 """The death screen's red, green, blue and alpha, at the window's upper and lower edge."""
 
@@ -180,17 +162,13 @@ _RED = ((0x50, 0, 0, 0x60), (0x80, 0x30, 0x30, 0xA0))
 def bottom_region(size: tuple[int, int], scale: int) -> Region:
     """Return the rows from the hotbar to the line being typed, from that line's first letter on, in framebuffer pixels.
 
+    They are 21 rows of dots.
     ``size`` is the window's width and height, ``scale`` the GUI scale.
     """
     across, down = -(-size[0] // scale), -(-size[1] // scale)
     top = (down - HEIGHT) * scale
     right = (across // 2 + WIDTH // 2) * scale
-    return Region(_BAR_LEFT * scale, top, right - _BAR_LEFT * scale, min((_UNDER_CHAT + 2) * scale, size[1] - top))
-
-
-def bottom_dots(frame: Frame, scale: int) -> Frame:
-    """Return the dots of a picture of that region: (21, columns, 3)."""
-    return frame[scale // 2 :: scale, scale // 2 :: scale]
+    return Region(_LEFT * scale, top, right - _LEFT * scale, min((_UNDER_CHAT + 2) * scale, size[1] - top))
 
 
 def typed_dots(dots: Frame) -> Frame:
@@ -216,16 +194,8 @@ def hotbar_look(dots: Frame, height: int) -> HotbarLook | None:
 
 def _alike(rows: Frame, *colours: Colour) -> int:
     """Return in how many columns each row has its colour."""
-    masks = [
-        cv2.inRange(row[np.newaxis], tuple(part - INK_SPREAD for part in colour[::-1]), _up(colour))
-        for row, colour in zip(rows, colours, strict=True)
-    ]
+    masks = [ink_of(row[np.newaxis], colour) for row, colour in zip(rows, colours, strict=True)]
     return cv2.countNonZero(np.bitwise_and.reduce(masks) if len(masks) > 1 else masks[0])
-
-
-def _up(colour: Colour) -> Colour:
-    red, green, blue = colour
-    return blue + INK_SPREAD, green + INK_SPREAD, red + INK_SPREAD
 
 
 def _tinted(grey: int, down: float) -> Colour:

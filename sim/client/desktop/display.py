@@ -46,7 +46,8 @@ class VirtualDisplay:
         self.painter = painter
         self._title = title
         self._views: deque[tuple[float, View]] = deque([(-math.inf, view)])
-        self._shown_at = -math.inf
+        self.shown_at = -math.inf
+        """The time at which the game drew the frame that was seen last, in seconds."""
         self._frozen_at, self._frozen_until = -math.inf, -math.inf
         self._black_until = -math.inf
 
@@ -77,13 +78,8 @@ class VirtualDisplay:
         if now < self._frozen_until:
             seen = min(seen, self._frozen_at)
         # A desktop never shows an older frame than before.
-        self._shown_at = max(self._shown_at, self._frames.at_or_before(seen))
-        return next((view for since, view in reversed(self._views) if since <= self._shown_at), self._views[0][1])
-
-    @property
-    def shown_at(self) -> float:
-        """The time at which the game drew the frame that was seen last, in seconds."""
-        return self._shown_at
+        self.shown_at = max(self.shown_at, self._frames.at_or_before(seen))
+        return next((view for since, view in reversed(self._views) if since <= self.shown_at), self._views[0][1])
 
     def is_black(self) -> bool:
         """Return whether the desktop shows a black picture now."""
@@ -93,7 +89,7 @@ class VirtualDisplay:
         """Draw this view from now on."""
         if view != self._views[-1][1]:
             self._views.append((self._clock.now(), view))
-        while len(self._views) > 1 and self._views[1][0] < self._shown_at:
+        while len(self._views) > 1 and self._views[1][0] < self.shown_at:
             self._views.popleft()
 
     def freeze(self, seconds: float) -> None:

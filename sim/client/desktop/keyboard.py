@@ -5,7 +5,7 @@ To 1.12 the game, too, knows a key by what the layout has at its place (FACTS: I
 
 from functools import partial
 
-from mc_nested.live.model.keys import CHARACTERS, NAME_AT_EVDEV, KeyPlace, Layout, canonical
+from mc_nested.live.model.keys import CHARACTERS, NAME_AT_EVDEV, KeyPlace, Layout, canonical, taken_for
 from sim.client.desktop.window import VirtualWindow
 from sim.client.game.controls import Controls
 
@@ -130,7 +130,7 @@ class VirtualKeySender:
         name = NAME_AT_EVDEV[place.evdev]
         has_shift = bool(_SHIFTS & self._window.down)
         plain, shifted = self._characters.get(name, (" ", " ") if name == "space" else ("", ""))
-        key = self._taken_for(name, has_shift=has_shift)
+        key = taken_for(name, self._lwjgl, has_shift=has_shift) if self._is_lwjgl_2 else name
         if is_down:
             self._window.press(name, partial(self._go_down, key, shifted if has_shift else plain))
         else:
@@ -144,13 +144,6 @@ class VirtualKeySender:
 
     def layout(self) -> Layout:
         return self._lwjgl
-
-    def _taken_for(self, place: str, *, has_shift: bool) -> str:
-        """Return the key that the game takes for the one at a place, when that goes down or up; "" for none."""
-        if not self._is_lwjgl_2 or place not in self._lwjgl:
-            return place
-        plain, shifted = self._lwjgl[place]
-        return (shifted or plain) if has_shift else plain
 
     def _go_down(self, key: str, typed: str) -> None:
         if key:

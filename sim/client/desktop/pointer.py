@@ -32,11 +32,16 @@ class VirtualPointer:
         self._scale = scale
         self._ignores_move = False
 
+    @property
+    def is_held(self) -> bool:
+        """Whether the game keeps the mouse to itself: its world is played, in front."""
+        return self._window.is_in_front and self._game.screen == "world"
+
     def position(self) -> tuple[int, int]:
-        return self._middle() if self._is_held_by_game() else self._window.pointer
+        return self._middle() if self.is_held else self._window.pointer
 
     def move(self, x: int, y: int) -> None:
-        if not self._is_held_by_game():
+        if not self.is_held:
             self._window.pointer = (x, y)
             self._game.pointer = self._in_gui_pixels(x, y)
             self._ignores_move = True
@@ -60,9 +65,6 @@ class VirtualPointer:
         width, height = self._window.size
         gui_size = -(-width // scale), -(-height // scale)
         return lambda: self._controls.button(button, position, gui_size, self._clock.now(), is_down=is_down)
-
-    def _is_held_by_game(self) -> bool:
-        return self._window.is_in_front and self._game.screen == "world"
 
     def _middle(self) -> tuple[int, int]:
         return self._window.size[0] // 2, self._window.size[1] // 2

@@ -131,26 +131,24 @@ _FACE: Colour = (33, 33, 33)
 _TITLE: Colour = (255, 255, 0)
 
 
-class NoticeLayers:
-    """The layers of notices in a window so many GUI pixels wide."""
+def notice_layers(letters: Letters, width: int, notices: tuple[str, ...]) -> list[Layer]:
+    """Return the layers of notices, from the top down, in a window so many GUI pixels wide.
 
-    def __init__(self, letters: Letters, width: int) -> None:
-        self._letters, self._fill, self._left = letters, letters.fill, width - WIDTH
-
-    def of(self, notices: tuple[str, ...]) -> list[Layer]:
-        """Return the layers of these texts from the top down; an empty one leaves its place free."""
-        layers: list[Layer] = []
-        for place, text in enumerate(notices[:MOST]):
-            if text:
-                top, left = place * HEIGHT, self._left
-                layers += [
-                    self._fill((left, top, left + WIDTH, top + HEIGHT), _EDGE),
-                    self._fill((left + 2, top + 2, left + WIDTH - 2, top + HEIGHT - 2), _FACE),
-                    self._fill((left + 8, top + 8, left + 24, top + 24), _EDGE),
-                    self._letters.text(text, left + 30, top + 7, _TITLE),
-                    self._letters.text("Press E", left + 30, top + 18, WHITE),
-                ]
-        return layers
+    An empty text leaves its place free.
+    """
+    layers: list[Layer] = []
+    left = width - WIDTH
+    for place, text in enumerate(notices[:MOST]):
+        if text:
+            top = place * HEIGHT
+            layers += [
+                letters.fill((left, top, left + WIDTH, top + HEIGHT), _EDGE),
+                letters.fill((left + 2, top + 2, left + WIDTH - 2, top + HEIGHT - 2), _FACE),
+                letters.fill((left + 8, top + 8, left + 24, top + 24), _EDGE),
+                letters.text(text, left + 30, top + 7, _TITLE),
+                letters.text("Press E", left + 30, top + 18, WHITE),
+            ]
+    return layers
 
 
 _BLACK: Colour = (0, 0, 0)

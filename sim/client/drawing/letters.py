@@ -10,7 +10,7 @@ from importlib import resources
 import numpy as np
 from numpy.typing import NDArray
 
-from mc_nested.live.vision.font import SPACE, Font
+from mc_nested.live.vision.font import SPACE, Font, font_of
 from sim.client.drawing.layers import Blend, Ink, Rect
 from sim.client.game.widgets import Colour
 
@@ -113,6 +113,12 @@ def _sheet(colour: Colour, height: int, width: int) -> NDArray[np.uint8]:
 
 
 _FIELD = 7
+
+
+@lru_cache(1)
+def drawn_font() -> Font:
+    """Return the font drawn for this project."""
+    return font_of(drawn_atlas())
 
 
 def drawn_atlas() -> NDArray[np.uint8]:

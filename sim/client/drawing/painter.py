@@ -5,7 +5,7 @@ of many kinds: bright, dark and noisy.
 """
 
 from collections.abc import Mapping
-from functools import lru_cache
+from functools import lru_cache, partial
 
 import numpy as np
 
@@ -13,7 +13,7 @@ from mc_nested.live.devices import Frame, Region
 from mc_nested.live.vision.font import Font
 from mc_nested.live.vision.layout import Scales
 from sim.client.drawing.f3_layers import F3Layers
-from sim.client.drawing.gui_layers import HudLayers, MenuLayers, NoticeLayers
+from sim.client.drawing.gui_layers import HudLayers, MenuLayers, notice_layers
 from sim.client.drawing.layers import Layer, LayeredPicture
 from sim.client.drawing.letters import Letters
 from sim.client.drawing.world_layer import WorldLayers
@@ -45,7 +45,7 @@ class ViewLayers:
         self._hud = HudLayers(letters, gui, edition)
         self._menu = MenuLayers(letters, gui, edition, words)
         # The same layers again, so that what doesn't change isn't drawn again.
-        self._notices = lru_cache(8)(NoticeLayers(letters, gui[0]).of)
+        self._notices = lru_cache(8)(partial(notice_layers, letters, gui[0]))
         self._is_f3_last = edition.since(1, 21, 9)
 
     def of(self, view: View) -> list[Layer]:
@@ -104,13 +104,9 @@ class Painter:
     """Draws a game in a window of one size, at one pair of scales.
 
     Args:
-        size: the window's width and height in framebuffer pixels.
-        scales: framebuffer pixels a GUI pixel, of the GUI and of the debug screen.
-        font: the font of all texts.
-        edition: the game's version.
+        size, scales, font, edition, words: as of ``ViewLayers``.
         kind: the kind of world behind the text, of ``WORLDS``, bright, dark or ``SEEN``.
         seed: of the random world.
-        words: the menus' texts in another language, by their English.
     """
 
     def __init__(

@@ -9,11 +9,20 @@ from functools import lru_cache
 from typing import NamedTuple, TypeVar
 
 from mc_nested.live.model.reading import Block
-from sim.client.game.f3_screen import F3Screen, Part, TextLine, chunk_of, section_of, towards
+from sim.client.game.f3_screen import (
+    EMPTY,
+    F3Screen,
+    Part,
+    TextLine,
+    chunk_of,
+    plain,
+    property_lines,
+    section_of,
+    towards,
+)
 
 T = TypeVar("T")
 
-_EMPTY: Part = (TextLine(),)
 _PRIORITY, _SINGLE = "priority", "single"
 
 
@@ -39,12 +48,12 @@ def entry_columns(screen: F3Screen) -> tuple[list[Part], list[Part]]:
         [*_apart(first[side::2]), *_apart(half[side]), *(part for group in groups[side] for part in _apart(group))]
         for side in (0, 1)
     )
-    return left + ([_EMPTY, _help(screen)] if screen.shown and screen.has_f3 else []), right
+    return left + ([EMPTY, _help(screen)] if screen.shown and screen.has_f3 else []), right
 
 
 def _apart(parts: list[Part]) -> list[Part]:
     """Return the lines with an empty row below, if there are any lines."""
-    return [*parts, _EMPTY] if parts else []
+    return [*parts, EMPTY] if parts else []
 
 
 def _halves(items: list[T]) -> tuple[list[T], list[T]]:
@@ -52,16 +61,12 @@ def _halves(items: list[T]) -> tuple[list[T], list[T]]:
     return items[:middle], items[middle:]
 
 
-def _plain(*texts: str) -> Part:
-    return tuple(map(TextLine, texts))
-
-
 def _single(*texts: str) -> Callable[[F3Screen], _Said]:
     return _group(_SINGLE, *texts)
 
 
 def _group(name: str, *texts: str) -> Callable[[F3Screen], _Said]:
-    said = _Said(name, (_plain(*texts),))
+    said = _Said(name, (plain(*texts),))
     return lambda _: said
 
 
@@ -75,24 +80,24 @@ def _helping(has_keys: bool, has_light: bool, is_small: bool) -> Part:
     fps = "fps + tps" if is_small else "FPS + TPS"
     charts = f"Debug charts: [F3+1] Profiler hidden; [F3+2] {fps} hidden; [F3+3] Ping hidden"
     if not has_keys:
-        return _plain(charts, "To edit: press F3 + F6. For help: press F3 + Q")
+        return plain(charts, "To edit: press F3 + F6. For help: press F3 + Q")
     lines = charts.replace("; [F3+3]", ";\n[F3+3]").split("\n") if has_light else [charts]
-    return _plain(*lines[:-1], lines[-1] + ("; [F3+4] Lightmap hidden" if has_light else ""), "To edit: press [F3+F6]")
+    return plain(*lines[:-1], lines[-1] + ("; [F3+4] Lightmap hidden" if has_light else ""), "To edit: press [F3+F6]")
 
 
 def _fps(screen: F3Screen) -> _Said:
     sync = "(fifo) @60Hz" if screen.edition.since(26, 3) else "vsync"
-    return _Said(_PRIORITY, (_plain(f"{screen.fps} fps T: {screen.fps} {sync}"),))
+    return _Said(_PRIORITY, (plain(f"{screen.fps} fps T: {screen.fps} {sync}"),))
 
 
 def _version(screen: F3Screen) -> _Said:
-    return _Said(_PRIORITY, (_plain(screen.title),))
+    return _Said(_PRIORITY, (plain(screen.title),))
 
 
 def _impactors(screen: F3Screen) -> _Said:
     if not screen.edition.since(1, 21, 11):
-        return _Said(_SINGLE, (_plain("fancy fancy-clouds B: 2"),))
-    return _Said(_SINGLE, (_plain(" fancy-clouds B: 2", "Filtering: RGSS"),))
+        return _Said(_SINGLE, (plain("fancy fancy-clouds B: 2"),))
+    return _Said(_SINGLE, (plain(" fancy-clouds B: 2", "Filtering: RGSS"),))
 
 
 def _memory(screen: F3Screen) -> _Said:
@@ -101,7 +106,7 @@ def _memory(screen: F3Screen) -> _Said:
 
 @lru_cache(2)
 def _used(unit: str) -> Part:
-    return _plain(f"Mem: 23% 480/2048{unit}", f"Allocation rate: 035{unit}/s", f"Allocated: 41% 840{unit}")
+    return plain(f"Mem: 23% 480/2048{unit}", f"Allocation rate: 035{unit}/s", f"Allocated: 41% 840{unit}")
 
 
 def _system(screen: F3Screen) -> _Said:
@@ -110,7 +115,7 @@ def _system(screen: F3Screen) -> _Said:
 
 @lru_cache(16)
 def _specs(size: tuple[int, int]) -> Part:
-    return _plain(
+    return plain(
         *("Java: 25.0.2", "CPU: 4x AMD Ryzen 5", "Display: {}x{} (AMD)".format(*size)),
         *("AMD Radeon", "OpenGL 3.3.0 Core Profile"),
     )
@@ -119,19 +124,19 @@ def _specs(size: tuple[int, int]) -> Part:
 def _position(screen: F3Screen) -> _Said:
     (px, py, pz), (x, y, z) = screen.xyz, screen.block
     parts = (
-        _plain(f"XYZ: {px:.3f} / {py:.5f} / {pz:.3f}"),
-        _plain(f"Block: {x} {y} {z}", f"Chunk: {chunk_of(screen.block)}"),
-        _plain(f"Facing: {towards(screen.yaw)} ({screen.yaw:.1f} / {screen.pitch:.1f})"),
+        plain(f"XYZ: {px:.3f} / {py:.5f} / {pz:.3f}"),
+        plain(f"Block: {x} {y} {z}", f"Chunk: {chunk_of(screen.block)}"),
+        plain(f"Facing: {towards(screen.yaw)} ({screen.yaw:.1f} / {screen.pitch:.1f})"),
         _OVERWORLD,
     )
     return _Said("position", parts)
 
 
-_OVERWORLD = _plain("minecraft:overworld FC: 0")
+_OVERWORLD = plain("minecraft:overworld FC: 0")
 
 
 def _section(screen: F3Screen) -> _Said:
-    return _Said("position", (_plain(f"Section-relative: {section_of(screen.block)}"),))
+    return _Said("position", (plain(f"Section-relative: {section_of(screen.block)}"),))
 
 
 def _block(screen: F3Screen) -> _Said:
@@ -166,12 +171,12 @@ def _entity(screen: F3Screen) -> _Said:
 
 def _targeted(kind: str, pos: Block, name: str, properties: Iterable[tuple[str, str]]) -> Part:
     x, y, z = pos
-    lines = (TextLine(f"{key}: {value}", value if value in ("true", "false") else "") for key, value in properties)
-    return (TextLine(f"Targeted {kind}: {x}, {y}, {z}", underlined=True), TextLine(name), *lines)
+    heading = TextLine(f"Targeted {kind}: {x}, {y}, {z}", underlined=True)
+    return (heading, TextLine(name), *property_lines(properties))
 
 
 def _tagged(tags: Iterable[str]) -> Part:
-    return _plain(*(f"#{tag}" for tag in tags))
+    return plain(*(f"#{tag}" for tag in tags))
 
 
 _ENTRIES: dict[str, Callable[[F3Screen], _Said]] = {

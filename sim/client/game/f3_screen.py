@@ -3,6 +3,7 @@
 Those are positions, directions, and the tags of blocks by version (FACTS: The F3 debug screen).
 """
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import cached_property
 from math import floor
@@ -40,6 +41,20 @@ class TextLine(NamedTuple):
 
 Part = tuple[TextLine, ...]
 """Lines below each other that change together: what stays the same from frame to frame need not be drawn again."""
+
+EMPTY: Part = (TextLine(),)
+
+
+def plain(*texts: str) -> Part:
+    """Return plain lines of these texts."""
+    return tuple(map(TextLine, texts))
+
+
+def property_lines(properties: Iterable[tuple[str, str]]) -> Part:
+    """Return the lines of a block's properties."""
+    return tuple(
+        TextLine(f"{name}: {value}", value if value in ("true", "false") else "") for name, value in properties
+    )
 
 
 @dataclass(frozen=True)

@@ -9,18 +9,16 @@ from typing import get_args
 from sim.client.game.edition import Layout
 from sim.client.game.entry_boxes import EntryBox, box_columns
 from sim.client.game.entry_lines import entry_columns
-from sim.client.game.f3_screen import F3Screen, Part, TextLine, chunk_of, towards
+from sim.client.game.f3_screen import EMPTY, F3Screen, Part, TextLine, chunk_of, plain, property_lines, towards
 
 LAYOUTS: tuple[Layout, ...] = get_args(Layout)
 """All of them."""
-
-_EMPTY: Part = (TextLine(),)
 
 
 def both_columns(screen: F3Screen) -> tuple[list[Part], list[Part]]:
     """Return the left and the right column, from the top, in parts."""
     if screen.layout == "standin":
-        return _standin_left(screen), [_plain("Renderer: three.js r128", ""), *_standin_target(screen)]
+        return _standin_left(screen), [plain("Renderer: three.js r128", ""), *_standin_target(screen)]
     if screen.layout == "1.21.9-26.3":
         return entry_columns(screen)
     if screen.layout == "26.4":
@@ -29,9 +27,9 @@ def both_columns(screen: F3Screen) -> tuple[list[Part], list[Part]]:
     counts, machine = _counts(screen.layout, screen.title, screen.fps), _machine(screen.layout)
     if screen.reduced:
         x, y, z = screen.block
-        return [counts, _EMPTY, _plain(f"Chunk-relative: {x & 15} {y & 15} {z & 15}")], [machine]
+        return [counts, EMPTY, plain(f"Chunk-relative: {x & 15} {y & 15} {z & 15}")], [machine]
     return (
-        [counts, _EMPTY, *_position(screen), *_looking(screen)],
+        [counts, EMPTY, *_position(screen), *_looking(screen)],
         [machine, _graphics(screen.size), _target_group(screen), _fluid_group(screen)],
     )
 
@@ -40,35 +38,31 @@ def _boxed(box: EntryBox) -> Part:
     """Return the text of a box of 26.4, each fact as one text, and the gap below it."""
     facts = (f"{fact.name}: {''.join(text for text, _ in fact.value)}" for fact in box.facts)
     title = (box.kind.title,) if box.kind.title else ()
-    return _plain(*title, *facts, *box.lines, "")
-
-
-def _plain(*texts: str) -> Part:
-    return tuple(map(TextLine, texts))
+    return plain(*title, *facts, *box.lines, "")
 
 
 @lru_cache(16)
 def _machine(layout: Layout) -> Part:
     rate = ["Allocation rate: 120MB /s"] if layout == "1.19.3-1.21.8" else []
-    return _plain(
+    return plain(
         *("Java: 21.0.3 64bit", "Mem: 23% 480/2048MB", *rate, "Allocated: 41% 840MB", "", "CPU: 4x AMD Ryzen 5", "")
     )
 
 
 @lru_cache(16)
 def _graphics(size: tuple[int, int]) -> Part:
-    return _plain("Display: {}x{} (AMD)".format(*size), "AMD Radeon", "4.6 Core Profile", "")
+    return plain("Display: {}x{} (AMD)".format(*size), "AMD Radeon", "4.6 Core Profile", "")
 
 
 @lru_cache(64)
 def _counts(layout: Layout, title: str, fps: int) -> Part:
     rate, limit = f"{fps} fps", f"T: {fps}"
     if layout == "1.8-1.12":
-        return _plain(
+        return plain(
             *(title, f"{rate} (0 chunk updates) {limit} vsync fancy vbo", "C: 118/7225 (s) D: 8, pC: 000"),
             *("E: 1/22, B: 0", "P: 0. T: All: 22", "MultiplayerChunkCache: 841, 841"),
         )
-    return _plain(
+    return plain(
         *(title, f"{rate} {limit} vsync fancy fancy-clouds", "Integrated server @ 4 ms ticks, 12 tx, 700 rx"),
         *("C: 302/7225 (s) D: 8, pC: 000", "E: 1/22, B: 0, SD: 8", "P: 0. T: 22"),
         *("Chunks[C] W: 529, 361 E: 59,38,59", "Chunks[S] W: 3249 E: 59,38,59", "minecraft:overworld FC: 0"),
@@ -83,9 +77,9 @@ def _position(screen: F3Screen) -> list[Part]:
     if layout == "1.19.3-1.21.8":
         chunk = f"Chunk: {chunk_of(screen.block)}"
     return [
-        _plain(f"XYZ: {px:.3f} / {py:.5f} / {pz:.3f}"),
-        _plain(block, chunk),
-        _plain(f"Facing: {towards(screen.yaw)} ({screen.yaw:.1f} / {screen.pitch:.1f})"),
+        plain(f"XYZ: {px:.3f} / {py:.5f} / {pz:.3f}"),
+        plain(block, chunk),
+        plain(f"Facing: {towards(screen.yaw)} ({screen.yaw:.1f} / {screen.pitch:.1f})"),
         _surroundings(layout),
     ]
 
@@ -93,23 +87,23 @@ def _position(screen: F3Screen) -> list[Part]:
 @lru_cache(16)
 def _surroundings(layout: Layout) -> Part:
     biome = "Biome: Plains" if layout == "1.8-1.12" else "Biome: minecraft:plains"
-    return _plain("Client Light: 15 (15 sky, 0 block)", biome, "Local Difficulty: 0.00")
+    return plain("Client Light: 15 (15 sky, 0 block)", biome, "Local Difficulty: 0.00")
 
 
 def _looking(screen: F3Screen) -> list[Part]:
     parts, block = [], {"1.8-1.12": "Looking at", "1.13-1.15": "Looking at block"}.get(screen.layout)
     if block and screen.target is not None and screen.target.pos is not None:
-        parts.append(_plain("{}: {} {} {}".format(block, *screen.target.pos)))
+        parts.append(plain("{}: {} {} {}".format(block, *screen.target.pos)))
     if screen.fluid is not None and screen.layout == "1.13-1.15":
-        parts.append(_plain("Looking at liquid: {} {} {}".format(*screen.fluid)))
+        parts.append(plain("Looking at liquid: {} {} {}".format(*screen.fluid)))
     return parts
 
 
 def _target_group(screen: F3Screen) -> Part:
     if screen.target is None:
         return ()
-    tags = _plain(*(f"#{tag}" for tag in screen.tags))
-    about = (TextLine(screen.target.id or ""), *_properties(screen), *tags, TextLine())
+    tags = plain(*(f"#{tag}" for tag in screen.tags))
+    about = (TextLine(screen.target.id or ""), *property_lines(screen.properties), *tags, TextLine())
     if screen.layout == "1.8-1.12":
         return about
     if screen.layout == "1.13-1.15" or screen.target.pos is None:
@@ -123,20 +117,14 @@ def _fluid_group(screen: F3Screen) -> Part:
         return ()
     x, y, z = screen.fluid
     label = "Targeted Fluid" if screen.layout == "1.13-1.15" else f"Targeted Fluid: {x}, {y}, {z}"
-    return (TextLine(label, underlined=True), *_plain("minecraft:water", "level: 8", "#minecraft:water"))
-
-
-def _properties(screen: F3Screen) -> Part:
-    return tuple(
-        TextLine(f"{name}: {value}", value if value in ("true", "false") else "") for name, value in screen.properties
-    )
+    return (TextLine(label, underlined=True), *plain("minecraft:water", "level: 8", "#minecraft:water"))
 
 
 def _standin_left(screen: F3Screen) -> list[Part]:
     (px, py, pz), (x, _, z) = screen.xyz, screen.block
     facing = towards(screen.yaw).replace("Towards", "towards")
     return [
-        _plain(
+        plain(
             screen.title,
             "E: 1",
             "minecraft:overworld",
@@ -156,4 +144,6 @@ def _standin_target(screen: F3Screen) -> list[Part]:
     if screen.target is None or screen.target.pos is None:
         return []
     x, y, z = screen.target.pos
-    return [(TextLine(screen.target.id or ""), *_properties(screen), TextLine(f"Looking at: {x} {y} {z}"))]
+    return [
+        (TextLine(screen.target.id or ""), *property_lines(screen.properties), TextLine(f"Looking at: {x} {y} {z}"))
+    ]

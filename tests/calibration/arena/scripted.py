@@ -5,7 +5,7 @@ from collections.abc import Callable, Sequence
 from calibration.arena.ground_survey import BlockQueries
 from calibration.command_console import CommandConsole
 from mc_nested.live.model.reading import Block, Reading
-from mc_nested.live.profile.built_arena import Box
+from mc_nested.live.profile.arena import Box
 
 
 class ScriptedConsole(CommandConsole):

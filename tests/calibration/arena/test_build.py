@@ -22,8 +22,7 @@ from mc_nested.arena.scenario_file import load_scenario
 from mc_nested.errors import DesktopError, McNestedError, NotConfirmedError, ProfileError, UserError
 from mc_nested.live.live_game import LiveGame
 from mc_nested.live.model.reading import Block
-from mc_nested.live.profile.arena import Arena
-from mc_nested.live.profile.built_arena import FLOOR, box_of
+from mc_nested.live.profile.arena import FLOOR, Arena, box_of
 from mc_nested.live.profile.store import load_profile, save_profile
 from mc_nested.live.profile.tables import Profile, WorldTable
 from sim.client.client import VirtualClient

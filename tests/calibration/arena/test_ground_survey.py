@@ -24,8 +24,7 @@ from calibration.arena.ground_survey import (
 from calibration.arena.plan import box_at
 from mc_nested.errors import UserError
 from mc_nested.live.model.reading import Reading, Target
-from mc_nested.live.profile.arena import Arena
-from mc_nested.live.profile.built_arena import box_of
+from mc_nested.live.profile.arena import Arena, box_of
 from mc_nested.live.profile.tables import GameVersion, InputTable, Profile
 from mc_nested.live.vision.game_screen import GameScreen
 from sim.client.client import VirtualClient

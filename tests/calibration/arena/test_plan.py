@@ -17,8 +17,7 @@ from calibration.arena.plan import (
     volume,
 )
 from mc_nested.live.model.coordinates import Facing
-from mc_nested.live.profile.arena import FILL_LIMIT, Arena
-from mc_nested.live.profile.built_arena import BORDERS, FLOOR, border_block, border_of, box_of, floor_of
+from mc_nested.live.profile.arena import BORDERS, FILL_LIMIT, FLOOR, Arena, border_block, border_of, box_of, floor_of
 from mc_nested.live.profile.tables import GameVersion, Profile
 
 FACINGS: list[Facing] = ["north", "south", "west", "east"]

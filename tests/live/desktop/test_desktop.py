@@ -13,8 +13,10 @@ import warnings
 import pytest
 
 from mc_nested.errors import DesktopError
-from mc_nested.live.desktop import open_desktop, session_kind
+from mc_nested.live.desktop import open_camera, open_desktop, session_kind
+from mc_nested.live.devices import DesktopArea
 from mc_nested.live.model.versions import GAME_TITLE
+from tests.live.desktop.real_windows.moving_window import MovingWindow
 from tests.live.desktop.real_windows.probed import probed
 
 MINECRAFT = r"^Minecraft\*? \d"
@@ -142,3 +144,22 @@ if sys.platform.startswith("linux"):
         with open_window(GAME_TITLE) as found:
             assert found.title() == "Minecraft 26.3"
         display.close()
+
+
+@pytest.mark.skipif(not sys.platform.startswith("linux"), reason="X11's module")
+def test_on_linux_the_system_is_x11() -> None:
+    code = (
+        "from mc_nested.live.desktop import this_system\n"
+        "system = this_system()\n"
+        "print(system.__name__.rpartition('.')[2], type(system.open_clipboard()).__name__)"
+    )
+    environment = {name: value for name, value in os.environ.items() if name != "DISPLAY"}
+    done = subprocess.run([sys.executable, "-c", code], env=environment, capture_output=True, text=True, check=False)
+    assert (done.returncode, done.stdout) == (0, "x11 X11Clipboard\n"), done.stderr
+
+
+def test_the_camera_of_a_window_that_pictures_itself_is_that_window() -> None:
+    window = MovingWindow(DesktopArea(10, 5, 40, 30))
+    with open_camera(window) as camera:
+        assert camera(window.client_area()).shape == (30, 40, 3)
+    assert window.asked == [window.client_area()]

@@ -8,7 +8,7 @@ import pytest
 
 from mc_nested.errors import LiveError, NotInFrontError, StoppedError
 from mc_nested.live.menus.click_points import ClickPoints, record_point
-from mc_nested.live.menus.recovery import EFFECT_S, FRONT_PATIENCE_S, PATIENCE_S, UNKNOWN_S, MenuNavigator, Recovery
+from mc_nested.live.menus.recovery import EFFECT_S, FRONT_PATIENCE_S, PATIENCE_S, UNKNOWN_S, Recovery
 from mc_nested.live.menus.screens import ScreenName, menu_name
 from mc_nested.live.profile.tables import GameVersion, KeysTable, Profile, WorldTable
 from tests.live.menus.fake_menus import BUTTONS, PROBLEM, FakeMenus, connection_of
@@ -101,19 +101,8 @@ def test_recovery_starts_over_with_the_debug_key_on_an_unknown_screen_after_a_kn
 def test_recovery_that_fails_in_time_names_the_screen_and_the_readers_problem() -> None:
     menus = FakeMenus("death", greyed={"Respawn"})
     with pytest.raises(LiveError, match=rf"not reached in 60 s, the screen is death \({PROBLEM}\)"):
-        recovery_in(menus).recover("the chat covers it")
+        recovery_in(menus).recover()
     assert PATIENCE_S <= menus.clock.now() - 100.0 < PATIENCE_S + 2 * EFFECT_S
-
-
-def test_failed_recovery_names_the_callers_reason_if_the_reader_has_none() -> None:
-    class Stuck(FakeMenus):
-        """The chat does not close, with the debug screen readable."""
-
-        def press(self, key: str) -> None:
-            self.pressed.append(key)
-
-    with pytest.raises(LiveError, match=r"the screen is chat \(a letter was lost\)"):
-        recovery_in(Stuck("chat")).recover("a letter was lost")
 
 
 def test_another_window_in_front_is_waited_for() -> None:
@@ -224,8 +213,8 @@ def test_the_panic_key_ends_the_wait_for_the_front() -> None:
 OWN_WORLD = Profile(world=WorldTable(folder="~/saves/arena", template="~/template", name="Arena"))
 
 
-def navigator_in(menus: FakeMenus, profile: Profile | None = None, points: ClickPoints | None = None) -> MenuNavigator:
-    return MenuNavigator(profile or Profile(), connection_of(menus), points or {})
+def navigator_in(menus: FakeMenus, profile: Profile | None = None, points: ClickPoints | None = None) -> Recovery:
+    return Recovery(profile or Profile(), connection_of(menus), points or {})
 
 
 def point_in(menus: FakeMenus, name: str, at: tuple[int, int] = (200, 60)) -> ClickPoints:

@@ -1,5 +1,7 @@
 """The tables of a profile: their limits, one line for a mistake, and what they say about versions and blocks."""
 
+import re
+
 import pytest
 import tomlkit
 from hypothesis import given
@@ -56,7 +58,7 @@ def test_a_mistake_in_a_profile_is_a_one_line_error_that_names_the_key(text: str
     ],
 )
 def test_the_default_title_matches_the_game_and_no_other_window(title: str, is_the_game: bool) -> None:
-    assert WindowTable().matches(title) is is_the_game
+    assert bool(re.search(WindowTable().title, title)) is is_the_game
 
 
 @pytest.mark.parametrize(

@@ -16,7 +16,7 @@ from mc_nested.live.input.input_controller import InputController
 from mc_nested.live.live_game import LiveGame
 from mc_nested.live.profile.arena import Arena
 from mc_nested.live.profile.tables import GameVersion, InputTable, Profile
-from mc_nested.live.recording.run_recorder import recorder_opener
+from mc_nested.live.recording.run_recorder import open_recorder
 from mc_nested.live.vision.font import font_of
 from mc_nested.live.vision.game_screen import WindowScreen
 from sim.client.client import VirtualClient
@@ -60,8 +60,9 @@ def record_play(
     arena = Arena.around((-20, client.realm.world.floor, 31), "south")
     profile = Profile(game=GameVersion(version=client.settings.version), arena=arena)
     rng, failed = np.random.default_rng(seed), []
-    opened = recorder_opener(folder, "test", said_nothing, scenario_facts(scenario))
-    with opened(profile, client.devices) as recording:
+    facts = scenario_facts(scenario)
+    with open_recorder(folder, "test", said_nothing, profile, client.devices, facts) as recording:
+        assert recording
         devices = recording.devices(client.devices)
         connection = GameConnection(
             devices,

@@ -8,7 +8,7 @@ import pytest
 from mc_nested.live.devices import DesktopArea
 from mc_nested.live.profile.tables import Profile
 from mc_nested.live.recording.recording_file import facts_of
-from mc_nested.live.recording.run_recorder import recorder_opener
+from mc_nested.live.recording.run_recorder import open_recorder
 from sim.client.client import VirtualClient
 
 LAPTOP, DESK = DesktopArea(0, 0, 1280, 720), DesktopArea(-1920, -180, 1920, 1080)
@@ -38,7 +38,8 @@ def test_a_recording_names_the_window_and_the_monitors(
         area=None if area is None else lambda: area,
         monitors=None if listed is None else lambda: listed,
     )
-    with recorder_opener(tmp_path / "one", "play-line", print)(Profile(), devices) as recording:
+    with open_recorder(tmp_path / "one", "play-line", print, Profile(), devices, {}) as recording:
+        assert recording
         recording.devices(devices).clock.now()
     facts = facts_of(tmp_path / "one")
     assert (facts["size"], facts["title"]) == ("854x480", client.display.title())

@@ -13,8 +13,8 @@ from mc_nested.live.model.reading import Reading, Target
 from mc_nested.live.vision.debug_screen import read_debug_screen
 from mc_nested.live.vision.font import Font, font_of
 from mc_nested.live.vision.glyph_grid import GlyphGrid
+from mc_nested.live.vision.layout import LAYOUTS as SCREEN_LAYOUTS
 from mc_nested.live.vision.layout import VANILLA, LayoutName, Overlay
-from mc_nested.live.vision.overlay import LAYOUTS as SCREEN_LAYOUTS
 from mc_nested.live.vision.overlay import find_debug_screen, find_overlay
 from mc_nested.live.vision.screen_lines import ScreenLines
 from mc_nested.live.vision.text_lines import positions_of

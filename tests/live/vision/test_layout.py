@@ -7,9 +7,7 @@ from mc_nested.live.devices import Frame
 from mc_nested.live.model.reading import Target
 from mc_nested.live.vision.font import font_of
 from mc_nested.live.vision.glyph_grid import GlyphGrid
-from mc_nested.live.vision.layout import BOXES, LINE_PITCH, VANILLA, Overlay, ScreenLayout
-from mc_nested.live.vision.overlay import LAYOUTS
-from mc_nested.live.vision.standin import STANDIN
+from mc_nested.live.vision.layout import BOXES, LAYOUTS, LINE_PITCH, STANDIN, VANILLA, Overlay, ScreenLayout
 from mc_nested.live.vision.text_lines import positions_of
 from sim.client.drawing.f3_layers import paint
 from sim.client.drawing.letters import drawn_atlas

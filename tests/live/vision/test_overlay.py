@@ -9,9 +9,8 @@ from mc_nested.live.devices import Frame
 from mc_nested.live.model.reading import Target
 from mc_nested.live.vision.font import Font, font_of
 from mc_nested.live.vision.glyph_grid import GlyphGrid
-from mc_nested.live.vision.layout import BOXES, VANILLA, Overlay, Scales
+from mc_nested.live.vision.layout import BOXES, STANDIN, VANILLA, Overlay, Scales
 from mc_nested.live.vision.overlay import find_debug_screen, find_overlay
-from mc_nested.live.vision.standin import STANDIN
 from mc_nested.live.vision.text_lines import positions_of
 from sim.client.drawing.f3_layers import paint
 from sim.client.drawing.letters import drawn_atlas

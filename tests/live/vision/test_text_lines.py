@@ -6,8 +6,7 @@ import pytest
 from mc_nested.live.devices import Frame
 from mc_nested.live.vision.font import font_of
 from mc_nested.live.vision.glyph_grid import GlyphGrid
-from mc_nested.live.vision.layout import VANILLA, Overlay
-from mc_nested.live.vision.standin import STANDIN
+from mc_nested.live.vision.layout import STANDIN, VANILLA, Overlay
 from mc_nested.live.vision.text_lines import (
     UNKNOWN,
     Line,

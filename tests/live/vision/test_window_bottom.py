@@ -10,16 +10,15 @@ from hypothesis import strategies as st
 
 from mc_nested.live.devices import Frame, Region
 from mc_nested.live.vision.font import font_of
+from mc_nested.live.vision.glyph_grid import dots_in
 from mc_nested.live.vision.window_bottom import (
     FIRST_COLUMNS,
     HotbarLook,
     begins_a_line,
-    bottom_dots,
     bottom_region,
     hotbar_look,
     reads_as,
     typed_dots,
-    typed_line_dots,
     typed_line_region,
 )
 from sim.client.drawing.letters import drawn_atlas
@@ -47,7 +46,7 @@ def test_a_window_that_cuts_its_last_dot_has_all_21_rows_of_dots() -> None:
     region = bottom_region((1920, 1057), 4)
     frame = np.zeros((region.height, region.width, 3), np.uint8)
     assert region.top + region.height <= 1057
-    assert bottom_dots(frame, 4).shape[0] == 21
+    assert dots_in(frame, 4).shape[0] == 21
 
 
 @pytest.mark.parametrize(
@@ -120,10 +119,10 @@ def test_the_typed_lines_place_is_rounded_as_in_the_game_in_a_window_with_a_cut_
     assert typed_line_region((640, 241), 2) == Region(8, 218, 624, 18)
 
 
-def test_typed_line_dots_takes_the_middle_pixel_of_each_dot() -> None:
+def test_dots_in_takes_the_middle_pixel_of_each_dot() -> None:
     frame = np.zeros((27, 6, 3), np.uint8)
     frame[1, 1] = frame[25, 4] = 9
-    dots = typed_line_dots(frame, 3)
+    dots = dots_in(frame, 3)
     assert dots.shape == (9, 2, 3)
     assert [dots[0, 0, 0], dots[8, 1, 0], int(dots.sum())] == [9, 9, 54]
 

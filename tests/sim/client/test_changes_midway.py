@@ -9,13 +9,12 @@ import pytest
 from mc_nested.arena.action import Action
 from mc_nested.arena.scenario_file import load_scenario
 from mc_nested.errors import LiveError, UnreadableError, WrongScreenError
-from mc_nested.live.connection import GameConnection
+from mc_nested.live.connection import GameConnection, overlay_of
 from mc_nested.live.devices import Button
 from mc_nested.live.input.input_controller import FRESH_S, PressTarget
 from mc_nested.live.live_game import LiveGame
 from mc_nested.live.motion.key_hold import KeyHold
 from mc_nested.live.motion.pose_observer import PoseFrame, PoseObserver
-from mc_nested.live.profile.overlay import overlay_of
 from mc_nested.live.profile.tables import GameVersion, Profile, ScreenTable
 from mc_nested.live.recording.replayed_run import replay
 from mc_nested.live.vision.game_screen import WindowScreen

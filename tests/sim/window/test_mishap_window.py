@@ -1,13 +1,9 @@
-from typing import TYPE_CHECKING, Any, cast
+from typing import Any
 
 import numpy as np
 
 from sim.client.client import VirtualClient
 from sim.client.mishaps import Mishaps
-from sim.window.rehearsal import MishapWindow
-
-if TYPE_CHECKING:
-    from sim.window.glfw_window import GlfwWindow
 
 
 class NotedWindow:
@@ -22,13 +18,13 @@ class NotedWindow:
     def resize(self, size: tuple[int, int]) -> None:
         self.noted.append(("size", size))
 
-    def shift(self, right: int, down: int) -> None:
+    def shift_window(self, right: int, down: int) -> None:
         self.noted.append(("shift", (right, down)))
 
 
 def mishaps() -> tuple[NotedWindow, VirtualClient, Mishaps]:
     window, client = NotedWindow(), VirtualClient()
-    return window, client, Mishaps(MishapWindow(cast("GlfwWindow", window), client), np.random.default_rng(0))
+    return window, client, Mishaps(client, np.random.default_rng(0), window)
 
 
 def test_mishaps_of_the_desktop_are_done_to_the_real_window() -> None:

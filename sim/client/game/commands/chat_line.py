@@ -3,7 +3,7 @@
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from sim.client.game.commands import blocks, player, rules
+from sim.client.game.commands import blocks, player
 from sim.client.game.commands.words import CommandRefusedError
 from sim.client.game.realm import Realm
 
@@ -95,10 +95,10 @@ _COMMANDS: dict[str, _Command] = {
     "fill": blocks.fill,
     "setblock": blocks.setblock,
     "gamemode": player.gamemode,
-    "gamerule": rules.gamerule,
-    "time": rules.time,
-    "weather": rules.weather,
-    "difficulty": rules.difficulty,
+    "gamerule": player.gamerule,
+    "time": player.time,
+    "weather": player.weather,
+    "difficulty": player.difficulty,
     "give": player.give,
     "clear": player.clear,
     "item": player.item,

@@ -5,8 +5,8 @@ import dataclasses
 import pytest
 
 from mc_nested.live.model.reading import Target
+from mc_nested.live.vision.layout import STANDIN
 from mc_nested.live.vision.screen_lines import Unreadable
-from mc_nested.live.vision.standin import STANDIN
 from mc_nested.live.vision.target_block import target_block
 from mc_nested.live.vision.text_lines import UNKNOWN, Line
 from tests.live.vision.written_lines import WrittenLines

@@ -4,9 +4,8 @@ from pathlib import Path
 
 import pytest
 
-from calibration.calibrate_all import CalibrationStep
+from calibration.calibrate_all import CalibrationStep, registered_steps
 from calibration.font.sources import FontSources
-from calibration.registry import registered_steps
 from mc_nested.arena.action import Cell
 from mc_nested.errors import FontError, UserError
 from mc_nested.live.profile.store import save_profile
