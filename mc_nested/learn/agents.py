@@ -66,12 +66,13 @@ AGENT_SPECS: Mapping[str, AgentSpec] = {
 
 def check_exploration(spec: AgentSpec, preset: Preset) -> None:
     """Raise PresetError if the preset explores in a way, or sees what, the spec can't."""
+    if preset.objectives and not spec.appends_material:  # an objective is added to the nested agent's state
+        raise PresetError("[objectives] is for the nested agent: take that, or the preset paper")
     if spec.has_main:
         return
     if preset.states == SCREEN:  # it chooses a material in the game, where no window shows which
         raise PresetError('states "screen" are not for the single agent: take nested or hierarchical')
-    tables = ("excursions", "imagination", "objectives")
-    for name, table in ((f"[{name}]", getattr(preset, name)) for name in tables):
+    for name, table in ((f"[{name}]", getattr(preset, name)) for name in ("excursions", "imagination")):
         if table:  # its choice of a material is a step like any other
             raise PresetError(f"{name} is not for the single agent: take nested or hierarchical, or the preset paper")
 

@@ -40,9 +40,10 @@ LANDS = (0, 1)
 
 @dataclass
 class _Episode:
-    """Where one run is in its episode: the blocks that are left, the cells that are built, and what it is about."""
+    """Where one run is in its episode: the blocks and steps that are left, what is built, and what it is about."""
 
     left: int
+    steps: int
     placed: frozenset[Cell] = frozenset()
     builder: ObjectiveAgent | None = None
     plan: Plan = field(default_factory=Plan)
@@ -69,7 +70,7 @@ class UnknownDesigns(Agent):
         self.evidence = np.zeros((len(given), 2, self.size, self.size))
         self.before = self.evidence.copy()
         self._materials_now = np.zeros(len(given), dtype=np.int64)
-        self._episodes = [_Episode(each.start[2]) for each in given]
+        self._episodes = [_Episode(each.start[2], each.step_limit) for each in given]
         self._given: Arrays = {}
 
     def _learners(self) -> dict[str, Any]:
@@ -77,7 +78,7 @@ class UnknownDesigns(Agent):
 
     def begin_episodes(self, runs: Int64s) -> Int64s:
         for run in runs.tolist():
-            self._episodes[run] = _Episode(self._given_facts[run].start[2])
+            self._begin(run)
             self._materials_now[run] = self._worth(run).argmax()
         chosen: Int64s = self._materials_now[runs]
         return chosen
@@ -145,10 +146,14 @@ class UnknownDesigns(Agent):
             kept = part_of(state, str(run))
             first = int(kept["first_of_episode"][-1]) if len(kept["first_of_episode"]) else 0
             seen.load({**kept, "steps": kept["steps"][:first]})
-            self._episodes[run] = _Episode(self._given_facts[run].start[2])
+            self._begin(run)
             for step in (RealStep(*row) for row in kept["steps"][first:].tolist()):
                 self._next(run, step[:3], self._episodes[run])
                 self.see(run, step)
+
+    def _begin(self, run: int) -> None:
+        here = self._given_facts[run]
+        self._episodes[run] = _Episode(here.start[2], here.step_limit)
 
     def _worth(self, run: int) -> Float64s:
         """Return what an episode of each material would bring that run, (materials,)."""
@@ -164,14 +169,23 @@ class UnknownDesigns(Agent):
         if left < now.left:
             now.left, now.placed, now.builder = left, now.placed | {(cell[0] + LANDS[0], cell[1] + LANDS[1])}, None
         if now.builder is None and left:
-            wanted = candidates(self.beliefs(run), self._buildable(cell, now.placed), cell, left)
+            buildable = self._buildable(cell, now.placed)
+            in_time = buildable & (self._steps_to(cell) <= now.steps)
+            wanted = candidates(self.beliefs(run), in_time if in_time.any() else buildable, cell, left)
             if wanted:
                 now.builder = agent_for_cells(self._weights, wanted, self.size)
                 now.plan = Plan(blocks=len(now.placed))
+        now.steps -= 1
         if now.builder is None:
             return int(Action.F)
         decision, now.plan = now.builder.decide(now.plan, cell, now.placed)
         return int(decision.action)
+
+    def _steps_to(self, cell: Cell) -> Int64s:
+        """Return the steps from there until a block lands in each cell, (size, size), if nothing stands in the way."""
+        stands = np.array(cell) + LANDS
+        steps: Int64s = np.abs(np.indices((self.size, self.size)) - stands[:, None, None]).sum(0) + 1
+        return steps
 
     def _buildable(self, cell: Cell, placed: frozenset[Cell]) -> Bools:
         """Return where a block can land now, (size, size)."""

@@ -19,6 +19,7 @@ from mc_nested.arrays import Float64s, Int64s
 from mc_nested.errors import PresetError, UserError
 from mc_nested.learn.agents import AGENT_SPECS, check_exploration
 from mc_nested.learn.preset import Preset, load_preset, parse_preset
+from mc_nested.learn.unknown_design import playing
 from mc_nested.studies.arm import AGENTS, LIBRARY, SB3, Arm
 from mc_nested.studies.config import StudyConfig
 from mc_nested.studies.profiles import Measures, PlayedDesigns, measures_of, played_designs, profile, profile_band
@@ -119,7 +120,11 @@ def contestants_of(agents: Sequence[str], presets: Sequence[tuple[str, Preset]])
         reasons = {name: _reason_against(agent, preset) for name, preset in presets}
         if all(reasons.values()):
             raise UserError(f"{agent} can't take {' or '.join(reasons)}: {next(iter(reasons.values()))}")
-        found += [(agent, name, preset) for name, preset in presets if not reasons[name]]
+        # Nobody tells a contestant its design: the agent with objectives finds it out.
+        can = [
+            (name, playing(preset) if preset.objectives else preset) for name, preset in presets if not reasons[name]
+        ]
+        found += [(agent, name, preset) for name, preset in can]
         left_out += [f"{agent} with {name} is left out: {reason}" for name, reason in reasons.items() if reason]
     return found, left_out
 

@@ -17,8 +17,11 @@ from mc_nested.errors import RunError
 from mc_nested.learn.agents import AGENT_SPECS, Agent
 from mc_nested.learn.builders import Builders
 from mc_nested.learn.episode_log import EvaluationRow
+from mc_nested.learn.learnt_game import given_facts_of
+from mc_nested.learn.objectives.weights import shipped_weights
 from mc_nested.learn.runs.checkpoint import Checkpoint, fingerprint
 from mc_nested.learn.trainer import Trainer
+from mc_nested.learn.unknown_design import UnknownDesigns
 from mc_nested.studies.job import Job
 from mc_nested.studies.outcome import Evaluated, JobOutcome, RunOutcome, evaluated, write_outcome
 
@@ -166,6 +169,10 @@ def agents_trainer(job: Job, env: VectorEnv[Int64s, Int64s, Any]) -> Trainer:
     team = team_of_job(job)
     builders = Builders(team.starts, job.arm.networks) if team else None
     spec = AGENT_SPECS[builders.agent] if builders else job.arm.spec
-    agent = Agent(spec, job.scenarios, job.preset, job.seed, job.trials, builders)
+    agent: Agent
+    if job.preset.objectives:
+        agent = UnknownDesigns(shipped_weights(), given_facts_of(job.scenarios))
+    else:
+        agent = Agent(spec, job.scenarios, job.preset, job.seed, job.trials, builders)
     view = agent.view_of(env, job.scenarios)
     return Trainer(view, job.scenarios, agent, job.preset, job.seed, job.arm.stop_at_optimum)

@@ -180,9 +180,10 @@ def test_two_runs_at_once_are_refused() -> None:
         ObjectivesTraining([LINE] * 2, agent, preset, 0)
 
 
-def test_the_single_agent_has_no_objectives() -> None:
-    with pytest.raises(PresetError, match=r"\[objectives\] is not for the single agent"):
-        Agent(AGENT_SPECS["single"], [LINE], small(), 0)
+@pytest.mark.parametrize("kind", ["single", "hierarchical"])
+def test_the_nested_agent_alone_has_objectives(kind: str) -> None:
+    with pytest.raises(PresetError, match=r"\[objectives\] is for the nested agent: take that, or"):
+        Agent(AGENT_SPECS[kind], [LINE], small(), 0)
 
 
 def test_objectives_need_their_states_and_their_network() -> None:

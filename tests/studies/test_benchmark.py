@@ -10,10 +10,11 @@ from mc_nested.errors import RunError, UserError
 from mc_nested.learn.agents import AGENT_SPECS
 from mc_nested.learn.preset import Preset, load_preset
 from mc_nested.report.game_time import episodes_without_a_prior
-from mc_nested.studies.arm import AGENTS, SB3, Arm
+from mc_nested.studies.arm import AGENTS, SB3, Arm, Run
 from mc_nested.studies.benchmark import baseline, contestants_of
 from mc_nested.studies.config import StudyConfig, config_of
 from mc_nested.studies.folder import StudyFolder
+from mc_nested.studies.job import Job
 from mc_nested.studies.job_training import JobTraining, agents_trainer
 from sim.grid import GridVectorEnv
 from tests.learn.made_experiments import BAR, DOT, small_preset
@@ -114,6 +115,16 @@ def test_presets_that_an_agent_can_not_take_are_left_out_with_a_line() -> None:
 def test_an_agent_that_can_take_no_preset_is_refused() -> None:
     with pytest.raises(UserError, match=r"^single can't take tuned: \[excursions\] is not for the single agent"):
         contestants_of(["nested", "single"], [TUNED])
+
+
+def test_the_agent_with_objectives_is_not_told_the_design_and_finds_it_in_a_few_episodes() -> None:
+    (found,), _ = contestants_of(["nested"], [("any-design", load_preset("any-design"))])
+    runs = tuple(Run(contestant(*found), scenario, trial) for trial, scenario in enumerate((DOT, BAR)))
+    trainer = agents_trainer(Job("000", runs, 0), GridVectorEnv([DOT, BAR]))
+    while not trainer.finished:
+        trainer.tick()
+    assert trainer.policy_scores.tolist() == [DOT.optimum, BAR.optimum]
+    assert len(trainer.episode_rows) + len(trainer.evaluation_rows) < 20
 
 
 def test_sb3_is_capped_and_explores_by_epsilon() -> None:
