@@ -314,8 +314,9 @@ class Agent:
 
     def _by_run(self, of_rows: Callable[[Learner], Int64s]) -> Int64s:
         """Return the sum of what each learner counts of its rows, for each run, (runs,)."""
-        counts = [of_rows(learner).reshape(len(self.runs), -1) for learner in self._learners().values()]
-        total: Int64s = np.hstack(counts).sum(axis=1)
+        total = np.zeros(len(self.runs), np.int64)
+        for learner in self._learners().values():
+            total += of_rows(learner).reshape(len(self.runs), -1).sum(axis=1)
         return total
 
     def _named(self, of_learner: Callable[[str, Learner], Arrays]) -> Arrays:

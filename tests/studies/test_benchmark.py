@@ -16,6 +16,7 @@ from mc_nested.studies.config import StudyConfig, config_of
 from mc_nested.studies.folder import StudyFolder
 from mc_nested.studies.job import Job
 from mc_nested.studies.job_training import JobTraining, agents_trainer
+from mc_nested.studies.outcome import outcome_of
 from sim.grid import GridVectorEnv
 from tests.learn.made_experiments import BAR, DOT, small_preset
 
@@ -117,14 +118,21 @@ def test_an_agent_that_can_take_no_preset_is_refused() -> None:
         contestants_of(["nested", "single"], [TUNED])
 
 
-def test_the_agent_with_objectives_is_not_told_the_design_and_finds_it_in_a_few_episodes() -> None:
+def test_the_agent_with_objectives_is_not_told_the_design_and_finds_it_in_a_few_episodes(
+    tmp_path: Path,
+) -> None:
     (found,), _ = contestants_of(["nested"], [("any-design", load_preset("any-design"))])
     runs = tuple(Run(contestant(*found), scenario, trial) for trial, scenario in enumerate((DOT, BAR)))
-    trainer = agents_trainer(Job("000", runs, 0), GridVectorEnv([DOT, BAR]))
-    while not trainer.finished:
-        trainer.tick()
-    assert trainer.policy_scores.tolist() == [DOT.optimum, BAR.optimum]
-    assert len(trainer.episode_rows) + len(trainer.evaluation_rows) < 20
+    job = Job("000", runs, 0)
+    training = JobTraining(job, tmp_path, agents_trainer(job, GridVectorEnv([DOT, BAR])))
+    while not training.finished:
+        training.tick()
+    training.finish()
+    outcome = outcome_of(job, tmp_path)
+    assert outcome
+    assert [run.score for run in outcome.runs] == [DOT.optimum, BAR.optimum]
+    assert [run.updates for run in outcome.runs] == [0, 0], "it learns nothing between two episodes"
+    assert max(len(run.evaluations) for run in outcome.runs) < 10
 
 
 def test_sb3_is_capped_and_explores_by_epsilon() -> None:
