@@ -67,9 +67,10 @@ class JobOutcome(BaseModel):
     runs: list[RunOutcome]
 
     def seconds_of(self, run: RunOutcome) -> float:
-        """Return one run's share of the seconds, by its updates."""
+        """Return one run's share of the seconds, by its updates; by its steps where none of them updates anything."""
         updates = sum(each.updates for each in self.runs)
-        return self.seconds * run.updates / updates if updates else 0.0
+        work, own = (updates, run.updates) if updates else (sum(each.env_steps for each in self.runs), run.env_steps)
+        return self.seconds * own / work if work else 0.0
 
 
 def write_outcome(folder: Path, outcome: JobOutcome) -> None:

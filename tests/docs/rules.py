@@ -15,6 +15,7 @@ SIZES = {
     "mc-nested study objectives": "--trials 1 --episodes 2",
     "mc-nested study ablation": "--trials 1 --episodes 1 --scenario line",
     "mc-nested study sweep": "--trials 1 --episodes 2 --scenario line",
+    "mc-nested study benchmark --agents nested --presets any-design": "--designs 2",
     "mc-nested study benchmark": "--designs 1 --agents nested --presets model-based",
     "mc-nested train --backend live": "--episodes 1",
     "mc-nested train --backend virtual": "--trials 1 --episodes 1",

@@ -133,6 +133,8 @@ def test_the_agent_with_objectives_is_not_told_the_design_and_finds_it_in_a_few_
     assert [run.score for run in outcome.runs] == [DOT.optimum, BAR.optimum]
     assert [run.updates for run in outcome.runs] == [0, 0], "it learns nothing between two episodes"
     assert max(len(run.evaluations) for run in outcome.runs) < 10
+    assert sum(outcome.seconds_of(run) for run in outcome.runs) == pytest.approx(outcome.seconds)
+    assert outcome.seconds_of(outcome.runs[0]) > 0
 
 
 def test_sb3_is_capped_and_explores_by_epsilon() -> None:
