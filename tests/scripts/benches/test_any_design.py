@@ -40,6 +40,7 @@ def test_a_design_that_isnt_built_whole_is_named() -> None:
     found = judged("blind", [LINE], lambda scenario: ObjectiveAgent(main, 0 * nested, scenario))
     assert found["whole"] == 0
     assert found["failed"] == ["line 0 of 11"]
+    assert found["steps_against_the_builder"] is None
 
 
 @pytest.mark.parametrize(("whole", "steps", "code"), [(100, 1.15, 0), (80, 1.0, 1), (100, 1.2, 1)])
