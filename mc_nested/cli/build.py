@@ -103,7 +103,9 @@ def build(  # noqa: PLR0913 - a Typer verb: a parameter for each option
     unreachable = tuple(sorted(drawn.design - scenario.design))
     if unreachable and not quiet:
         cells = ", ".join(map(str, unreachable))
-        typer.echo(f"  no block can land on {cells}: out of the agent's reach; all else is built", err=True)
+        typer.echo(
+            f"  no block can land on {cells}: out of the agent's reach; it builds the other {scenario.blocks}", err=True
+        )
     opening = opening_of(profile, f"build-{scenario.name}", record, server_allowed=server_allowed)
     with viewed(view, "build", f"{scenario.name}, {where_words(backend)}") as viewing:
         opened = open_game(backend, scenario, replace(opening, journal=viewing.publisher.board))
@@ -131,7 +133,7 @@ def build(  # noqa: PLR0913 - a Typer verb: a parameter for each option
     )
     if afterwards:
         output.hint(f"  it stands until the arena is cleared for the next episode; {afterwards}")
-    _check_whole(built, scenario.blocks - len(env.placed), count, scenario)
+    _check_whole(built, scenario.blocks - len(env.placed), count, drawn)
 
 
 def _built(env: ArenaEnv, material: int | None, steps: Steps, viewing: Viewed, *, quiet: bool) -> GreedyEpisode:
@@ -158,17 +160,21 @@ def _by_the_agent(scenario: Scenario, material: int | None) -> Steps:
     return lambda env: steps_of(agent, env, material)
 
 
-def _check_whole(built: int, left: int, steps: int, scenario: Scenario) -> None:
+def _check_whole(built: int, left: int, steps: int, drawn: Scenario) -> None:
     """Raise UserError, one line, if a block in reach is missing; ``left`` weren't laid."""
+    scenario = within_reach(drawn)
     if built == scenario.blocks:
         return
+    remedies = ["build without --agent"] if scenario == drawn and is_buildable(drawn) else []
     if left and steps == scenario.step_limit:
-        why = f"its step_limit of {scenario.step_limit} was reached: raise it, or build"
+        why = f"its step_limit of {scenario.step_limit} was reached"
+        remedies.insert(0, "raise it")
     elif left:
-        why = "it gave up the others: build"
+        why = "it gave up the others"
     else:
-        why = "it laid the others off the design: build"
-    raise UserError(f"the agent built {built} of {scenario.blocks} blocks in reach, {why} without --agent")
+        why = "it laid the others off the design"
+    mend = f": {', or '.join(remedies)}" if remedies else ""
+    raise UserError(f"the agent built {built} of {scenario.blocks} blocks in reach, {why}{mend}")
 
 
 def _how_to_put_back(profile_name: str, *, yes: bool) -> str:

@@ -43,7 +43,8 @@ from mc_nested.cli.view import ViewOption
 from mc_nested.errors import UserError
 from mc_nested.learn.agents import AGENT_SPECS
 from mc_nested.learn.builders import NETWORKS, Networks
-from mc_nested.learn.preset import MOST, load_preset
+from mc_nested.learn.objectives.weights import agent_of, shipped_weights
+from mc_nested.learn.preset import MOST, Preset, load_preset
 from mc_nested.learn.runs.folder_lock import folder_lock
 from mc_nested.learn.runs.run_config import RunConfig, TeamTable
 from mc_nested.learn.runs.run_folder import RunFolder
@@ -179,7 +180,7 @@ def train(  # noqa: PLR0913 - a Typer verb: a parameter for each option
     if agent not in AGENT_SPECS:
         raise UserError(f"no agent {agent!r}: choose one of {', '.join(AGENT_SPECS)}")
     chosen = load_preset(preset).changed(engine=engine, device=device, states=states)
-    check_window(chosen.states, backend is not Backend.SIM)
+    _check_arenas(preset, chosen, backend, games=bool(games), design_unknown=design_unknown)
     design = named_scenario(scenario, layer)
     team = _team(design, builders, start, networks)
     if design_unknown:
@@ -211,6 +212,14 @@ app.command()(serve)
 app.command("keys")(make_keys)
 
 
+def _check_arenas(name: str, preset: Preset, backend: Backend, *, games: bool, design_unknown: bool) -> None:
+    """Raise UserError, one line, if the preset can't train where it is asked to."""
+    check_window(preset.states, backend is not Backend.SIM)
+    if preset.objectives and not design_unknown and (games or backend is not Backend.SIM):
+        mend = "--games" if games else "--backend, or add --design-unknown"
+        raise UserError(f"--preset {name} trains in the simulator: leave out {mend}")
+
+
 def _check_unknown(context: typer.Context, preset: str, agent: str, scenario: Scenario) -> None:
     """Raise UserError, one line, if a design can't be unknown in such a training."""
     if preset != ANY_DESIGN:
@@ -222,6 +231,7 @@ def _check_unknown(context: typer.Context, preset: str, agent: str, scenario: Sc
             raise UserError(f"{option} doesn't go with --design-unknown: leave it out")
     if scenario.parts:  # what a cell pays would depend on the part
         raise UserError(f"--design-unknown knows no parts, and {scenario.name} has some: take another design")
+    agent_of(shipped_weights(), scenario)  # what can't be used is said before there is a folder
 
 
 def _team(scenario: Scenario, builders: int | None, starts: list[str] | None, networks: str | None) -> TeamTable | None:

@@ -5,6 +5,7 @@ from collections.abc import Callable, Collection, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 import mc_nested.cli.build
@@ -64,9 +65,9 @@ def profile(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     save_profile(Profile(arena=copied), tmp_path / "config" / "mine.toml")
 
 
-def acts(monkeypatch: pytest.MonkeyPatch, *actions: Action) -> None:
+def acts(monkeypatch: pytest.MonkeyPatch, *actions: Action, material: int = 1) -> None:
     """Have the agent take these actions, and no others."""
-    steps = [BuildStep((action, 1), None, (7, 3)) for action in actions]
+    steps = [BuildStep((action, material), None, (7, 3)) for action in actions]
     monkeypatch.setattr(mc_nested.cli.build, "_by_the_agent", lambda *_: lambda _: iter(steps))
 
 
@@ -109,7 +110,7 @@ def test_cells_out_of_reach_are_named_first_and_all_else_is_built(
     assert (found["blocks"], found["built"], found["score"], found["optimum"]) == (17, 13, 23.0, 23.0)
     assert found["unreachable"] == [[1, 0], [2, 0], [4, 0], [5, 0]]
     where = "(1, 0), (2, 0), (4, 0), (5, 0)"
-    assert printed.err == f"  no block can land on {where}: out of the agent's reach; all else is built\n"
+    assert printed.err == f"  no block can land on {where}: out of the agent's reach; it builds the other 13\n"
     assert run("build", low, "--agent", "--quiet") == 0
     printed = capsys.readouterr()
     assert printed.out.startswith("  built 13 of 17 blocks")
@@ -156,6 +157,12 @@ def of_another_version(path: Path) -> None:
     save_weights(weights.Weights(main[:-1], nested), path)
 
 
+def without_a_number(path: Path) -> None:
+    main, nested = shipped_weights()
+    main[7] = np.nan
+    save_weights(weights.Weights(main, nested), path)
+
+
 @pytest.mark.parametrize(
     ("write", "says"),
     [
@@ -163,6 +170,7 @@ def of_another_version(path: Path) -> None:
         (lambda path: path.write_bytes(b"no weights"), "is broken ("),
         (lambda path: path.write_bytes(b""), "is broken ("),
         (of_another_version, "its weights are of another version ("),
+        (without_a_number, "is broken (main: not all of it is finite): install the package again"),
     ],
 )
 def test_weights_that_cannot_be_used_are_an_error_before_anything_is_opened(
@@ -207,6 +215,23 @@ def test_an_agent_that_fails_says_why_after_its_result_and_keeps_the_film(
     assert (found["built"], found["score"], found["steps"]) == (built, 10.0 + built, len(actions))
     assert printed.err == f"mc-nested: the agent built {built} of 11 blocks in reach, {why}\n"
     assert len(pictures_of(film)) > 1
+
+
+@pytest.mark.parametrize(
+    ("change", "says"),
+    [
+        (("step_limit = 60", "step_limit = 13"), "of 13 blocks in reach, its step_limit of 13 was reached: raise it\n"),
+        (("", ""), "of 13 blocks in reach, it gave up the others\n"),
+    ],
+    ids=["too few steps", "given up"],
+)
+def test_a_remedy_is_named_only_where_it_would_help(
+    change: tuple[str, str], says: str, low: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    low.write_text(LOW.replace(*change) if change[0] else LOW)
+    acts(monkeypatch, *[Action.B] * (13 if change[0] else 2), material=0)
+    assert run("build", low, "--agent", "--quiet") == 2
+    assert capsys.readouterr().err.endswith(says), "the scripted builder can't build it either"
 
 
 def test_the_arena_the_view_and_the_film_show_what_the_agent_is_after(

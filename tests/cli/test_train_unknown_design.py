@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 
 from mc_nested.cli.training_end import next_steps
+from mc_nested.learn.objectives import weights
 from mc_nested.learn.runs.checkpoint import FILE
 from mc_nested.learn.runs.run_folder import RunFolder
 from mc_nested.learn.trainer import Trainer
@@ -91,3 +92,20 @@ def test_a_mistake_is_refused_in_one_line(
     words: list[str], says: str, trained: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     check_mistake(["train", "--design-unknown", "--out", "NEW", *words], says, trained, tmp_path, capsys)
+
+
+@pytest.mark.parametrize("words", [["--backend", "virtual"], ["--backend", "live"]])
+def test_the_agent_is_trained_in_the_simulator_alone(
+    words: list[str], trained: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    says = "--preset any-design trains in the simulator: leave out --backend, or add --design-unknown"
+    check_mistake(["train", "--preset", "any-design", "--out", "NEW", *words], says, trained, tmp_path, capsys)
+
+
+def test_broken_weights_are_an_error_before_there_is_a_folder(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr(weights, "FILE", str(tmp_path / "none.safetensors"))
+    assert run(*TRAIN, "--out", tmp_path / "new") == 2
+    assert "can't be read" in capsys.readouterr().err
+    assert not (tmp_path / "new").exists()

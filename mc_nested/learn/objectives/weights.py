@@ -36,7 +36,11 @@ def shipped_weights() -> Weights:
     """Return the weights that come with the package; RunError, one line, if they are broken."""
     try:
         arrays = load(shipped_file().read_bytes())
-        return Weights(*(np.asarray(arrays[name], np.float32).reshape(-1) for name in Weights._fields))
+        weights = Weights(*(np.asarray(arrays[name], np.float32).reshape(-1) for name in Weights._fields))
+        for name, parameters in weights._asdict().items():
+            if not np.isfinite(parameters).all():
+                raise ValueError(f"{name}: not all of it is finite")
+        return weights
     except OSError as error:
         raise RunError(f"{FILE}: can't be read ({error.strerror}): install the package again") from error
     except (SafetensorError, KeyError, ValueError) as error:
