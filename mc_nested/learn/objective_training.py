@@ -47,6 +47,11 @@ class ObjectivesTraining(Training):
     def tick(self) -> None:
         """Do a round of lessons: in every arena a step of the nested agent, or an objective of the main agent."""
         random = stream(Purpose.PRACTICE, self._seed, self.agent.runs[0], self.ticks)
+        if not self.ticks:
+            first, then = self._rule.nested_updates, self.preset.episodes
+            self.practice.untold.append(
+                f"the nested agent learns first, with {first:,} updates; then the main agent, on {then:,} designs"
+            )
         if self._nested.updates < self._rule.nested_updates:
             said = self._nested.updates // SAID_EVERY
             self._nested.round(random)

@@ -36,6 +36,9 @@ def finished(training: ObjectivesTraining) -> ObjectivesTraining:
 def test_the_nested_agent_learns_first_then_the_main_agent() -> None:
     training = training_of(LINE, small())
     main = training.agent.online()["main"].copy()
+    training.tick()
+    says = "the nested agent learns first, with 12 updates; then the main agent, on 12 designs"
+    assert training.practice.untold == [says]
     while training.agent.low_level.engine.updates[0] < 12:
         assert training.episodes_done[0] == 0
         training.tick()
