@@ -68,7 +68,7 @@ def topics(designs: int, seed: int) -> Iterator[tuple[str, list[Scenario], float
     yield "arenas of 30", drawn(seed, designs, 30, MANY_BLOCKS), 0.90, math.inf
 
 
-class Judged(TypedDict):
+class TopicFigures(TypedDict):
     """A topic's figures; there are no steps where none was built whole."""
 
     whole: int
@@ -104,7 +104,7 @@ def trained(run: Path) -> tuple[Weights, Sees]:
     return Weights(networks["main"][0], networks["low"][0]), rule.nested_sees
 
 
-def figures_of(shares: Sequence[float], failed: list[str]) -> Judged:
+def figures_of(shares: Sequence[float], failed: list[str]) -> TopicFigures:
     """Return the figures of designs built whole, in these shares of the scripted builder's steps, and of the others."""
     return {
         "whole": len(shares),
@@ -114,7 +114,7 @@ def figures_of(shares: Sequence[float], failed: list[str]) -> Judged:
     }
 
 
-def judged(name: str, scenarios: Sequence[Scenario], agent_for: Callable[[Scenario], ObjectiveAgent]) -> Judged:
+def judged(name: str, scenarios: Sequence[Scenario], agent_for: Callable[[Scenario], ObjectiveAgent]) -> TopicFigures:
     """Return how many of those designs are built whole, and in how many of the scripted builder's steps."""
     shares, failed = [], []
     for scenario in track(scenarios, name, console=Console(stderr=True)):
@@ -126,7 +126,7 @@ def judged(name: str, scenarios: Sequence[Scenario], agent_for: Callable[[Scenar
     return figures_of(shares, failed)
 
 
-def built_in_the_window(scenarios: Sequence[Scenario]) -> Judged:
+def built_in_the_window(scenarios: Sequence[Scenario]) -> TopicFigures:
     """Return how many of those designs are built whole in a calibrated rehearsal window, without a block elsewhere."""
     failed, shares = [], []
     with (
@@ -175,7 +175,7 @@ def measure(options: argparse.Namespace) -> tuple[Figures, bool]:
             agent.order = IN_PLACE[options.main](options.seed)
         return agent
 
-    figures: dict[str, Judged] = {}
+    figures: dict[str, TopicFigures] = {}
     is_right = True
     for name, scenarios, least, most in topics(options.designs, options.seed):
         figures[name] = found = judged(name, scenarios, agent_for)

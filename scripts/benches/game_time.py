@@ -83,7 +83,7 @@ class PracticeOnAClock:
 
 
 @dataclasses.dataclass
-class Trial:
+class TimedTraining:
     """One training from scratch; ``minutes`` is infinite if it never reached the optimum."""
 
     scenario: str
@@ -117,7 +117,7 @@ class Trial:
         return not (self.wrong_cells or self.wrong_blocks or self.unnoticed or self.wrongly_learnt)
 
 
-def train(scenario: Scenario, seed: int, preset: Preset, rate: float) -> Trial:
+def train(scenario: Scenario, seed: int, preset: Preset, rate: float) -> TimedTraining:
     """Train an agent from scratch on a new client."""
     client = VirtualClient(seed=seed)
     arena = Arena.around((-20, client.realm.world.floor, 31), "south", size=size_for(scenario))
@@ -153,7 +153,7 @@ def train(scenario: Scenario, seed: int, preset: Preset, rate: float) -> Trial:
                     break
                 trainer.abandon_episodes()
         solved = any(row.score >= scenario.optimum for row in trainer.evaluation_rows)
-        return Trial(
+        return TimedTraining(
             scenario=scenario.name,
             seed=seed,
             solved=solved,
@@ -180,7 +180,7 @@ def wrongly_learnt(learnt: list[list[int]], episodes: list[list[Transition]]) ->
     return differ + abs(len(learnt) - len(expected))
 
 
-def medians(trials: list[Trial]) -> dict[str, float]:
+def medians(trials: list[TimedTraining]) -> dict[str, float]:
     """Return the median minutes of each scenario."""
     names = dict.fromkeys(trial.scenario for trial in trials)
     return {name: statistics.median(trial.minutes for trial in trials if trial.scenario == name) for name in names}

@@ -146,7 +146,7 @@ class ObjectiveAgent:
         return self._outside | framed_cells(placed, self._side)
 
 
-class Built(NamedTuple):
+class EpisodeByRules(NamedTuple):
     """An episode: where blocks stand at its end, its steps, and its score r_M."""
 
     placed: frozenset[Cell]
@@ -154,7 +154,7 @@ class Built(NamedTuple):
     score: float
 
 
-def built_by_the_rules(agent: ObjectiveAgent, scenario: Scenario) -> Built:
+def built_by_the_rules(agent: ObjectiveAgent, scenario: Scenario) -> EpisodeByRules:
     """Return one episode of that agent, if all goes as the rules say."""
     plan, cell, placed, steps, tally = Plan(), scenario.start, frozenset[Cell](), 0, Tally([scenario])
     tally.begin(THE_ARENA, np.array([scenario.best_material]))
@@ -168,4 +168,4 @@ def built_by_the_rules(agent: ObjectiveAgent, scenario: Scenario) -> Built:
         for x, y in placed - before:
             tally.lay(THE_ARENA, np.array([x]), np.array([y]))
         steps += 1
-    return Built(placed, steps, float(tally.total(THE_ARENA)[0]))
+    return EpisodeByRules(placed, steps, float(tally.total(THE_ARENA)[0]))

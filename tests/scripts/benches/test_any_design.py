@@ -19,7 +19,7 @@ from mc_nested.learn.preset import Preset
 from mc_nested.learn.runs.run_folder import RunFolder
 from scripts.bench import main
 from scripts.benches import any_design
-from scripts.benches.any_design import Judged, Order, by_chance, drawn, judged, nearest
+from scripts.benches.any_design import Order, TopicFigures, by_chance, drawn, judged, nearest
 from tests.learn.made_experiments import run_config
 from tests.learn.objectives.made_objectives import both_by_chance, small, training_of
 
@@ -47,8 +47,8 @@ def test_a_design_that_isnt_built_whole_is_named() -> None:
 def test_too_few_whole_designs_or_too_many_steps_are_a_failure(
     whole: int, steps: float, code: int, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    def figures(_: str, scenarios: Sequence[Scenario], __: object) -> Judged:
-        return Judged(
+    def figures(_: str, scenarios: Sequence[Scenario], __: object) -> TopicFigures:
+        return TopicFigures(
             whole=len(scenarios) * whole // 100, of=len(scenarios), steps_against_the_builder=steps, failed=[]
         )
 
@@ -138,9 +138,9 @@ def judged_by(a_run: Callable[[Preset], str], monkeypatch: pytest.MonkeyPatch) -
     """Return what calls the bench with the run of a preset and options, and returns what makes the agents it judges."""
     made: list[AgentFor] = []
 
-    def figures(_: str, __: Sequence[Scenario], agent_for: AgentFor) -> Judged:
+    def figures(_: str, __: Sequence[Scenario], agent_for: AgentFor) -> TopicFigures:
         made.append(agent_for)
-        return Judged(whole=0, of=1, steps_against_the_builder=1.0, failed=[])
+        return TopicFigures(whole=0, of=1, steps_against_the_builder=1.0, failed=[])
 
     def judge(preset: Preset, *options: str) -> AgentFor:
         assert main(["any-design", "--run", a_run(preset), "--designs", "1", *options]) == 1

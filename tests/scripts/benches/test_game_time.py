@@ -12,14 +12,14 @@ from mc_nested.learn.preset import load_preset
 from scripts.bench import main
 from scripts.benches.game_time import (
     PracticeOnAClock,
-    Trial,
+    TimedTraining,
     medians,
     train,
     wrongly_learnt,
 )
 
 LINE = load_scenario("line")
-RIGHT = Trial("line", 1, True, 8, 0, 100.0, 15.0, 5.0, 20.0, 0, 300, 0, 0, 0, 0, 0)
+RIGHT = TimedTraining("line", 1, True, 8, 0, 100.0, 15.0, 5.0, 20.0, 0, 300, 0, 0, 0, 0, 0)
 
 
 class TwoClocks:
