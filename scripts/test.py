@@ -41,6 +41,9 @@ KERNELS = [
 ]
 """Tests of compiled code that is quick enough in plain Python, where an index out of bounds is an error."""
 
+MOST_LINES, WIDEST = 12, 300
+"""How much of a failed test's reason the table shows: a log may be cut in its middle, where the traceback is."""
+
 LOOK_S = 0.5
 """Seconds between two looks at a check that runs beside others."""
 
@@ -161,8 +164,14 @@ def run_all(checks: Mapping[str, SuiteCheck], programs: Path) -> dict[str, Check
 
 
 def failed_tests(report: Path) -> list[str]:
-    """Return the tests that failed by pytest's report in JUnit's format; none where there is no report."""
-    return [f"{module}::{name}" for module, name, fault in cases_in(report) if fault is not None]
+    """Return the tests that failed by pytest's report in JUnit's format, and why; none where there is no report."""
+    return [f"{module}::{name}{why(fault)}" for module, name, fault in cases_in(report) if fault is not None]
+
+
+def why(fault: str) -> str:
+    """Return the lines of pytest's traceback that say what was wrong, cut to a few, each on a line of its own."""
+    said = [line[1:].strip() for line in fault.splitlines() if line.startswith("E ")]
+    return "".join(f"\n            {line[:WIDEST]}" for line in said[:MOST_LINES])
 
 
 def cases_in(report: Path) -> list[tuple[str, str, str | None]]:
@@ -212,7 +221,7 @@ def running_beside(command: Sequence[str | Path], variables: Mapping[str, str]) 
 
 
 def table(outcomes: Mapping[str, CheckOutcome]) -> list[str]:
-    """Return a row a check: whether it passed, and how long it took; below it the tests that failed."""
+    """Return a row a check: whether it passed, and how long it took; below it the tests that failed, and why."""
     rows = []
     for name, outcome in outcomes.items():
         rows.append(f"{'failed' if outcome.code else 'passed'}  {name:<30} {outcome.seconds:6.0f} s")

@@ -64,13 +64,15 @@ def test_the_checks_go_on_after_a_failure_which_the_table_shows(capfd: pytest.Ca
     ]
 
 
-def test_failed_tests_are_listed_below_their_checks_row(tmp_path: Path) -> None:
+def test_failed_tests_are_listed_below_their_checks_row_with_what_was_wrong(tmp_path: Path) -> None:
     test_file = tmp_path / "test_two.py"
-    test_file.write_text("def test_right(): pass\ndef test_wrong(): assert False\n")
+    test_file.write_text("def test_right(): pass\ndef test_wrong(): assert 1 + 1 == 3\n")
     check = SuiteCheck(["pytest", "-q", "-p", "no:cacheprovider", f"--rootdir={tmp_path}", str(test_file)], 1)
     first, second = table(run_all({"unit tests": check}, PYTHON.parent))
     assert first.startswith("failed  unit tests")
-    assert second.strip() == "test_two::test_wrong"
+    test, *why = (line.strip() for line in second.splitlines())
+    assert test == "test_two::test_wrong"
+    assert why == ["assert (1 + 1) == 3"]
 
 
 def test_unknown_check_is_refused(capsys: pytest.CaptureFixture[str]) -> None:

@@ -55,13 +55,20 @@ def connected(address: SchedulerAddress) -> Iterator["Client"]:
     """
     check_installed()
     quieten()
-    client = _in_time(lambda: _new_client(address))
+    connection = _begin(lambda: _new_client(address))
+    client = _in_time(connection)
     if not client:
+        connection.add_done_callback(_close_late)
         raise ClusterError(unreachable(address))
     try:
         yield client
     finally:
-        _in_time(lambda: client.close(timeout=CONNECT_S))
+        _in_time(_begin(lambda: client.close(timeout=CONNECT_S)))
+
+
+def _close_late(connection: "Future[Client | None]") -> None:
+    if client := connection.result():
+        client.close(timeout=CONNECT_S)
 
 
 def _new_client(address: SchedulerAddress) -> "Client | None":
@@ -80,11 +87,8 @@ def _new_client(address: SchedulerAddress) -> "Client | None":
 Result = TypeVar("Result")
 
 
-def _in_time(work: Callable[[], Result]) -> Result | None:
-    """Return what ``work`` returns.
-
-    None if it takes longer than CONNECT_S: Dask waits for ever for a scheduler that hangs.
-    """
+def _begin(work: Callable[[], Result]) -> Future[Result]:
+    """Run ``work`` in a thread that the program needn't wait for: Dask waits for ever for a scheduler that hangs."""
     done: Future[Result] = Future()
 
     def run() -> None:
@@ -94,6 +98,11 @@ def _in_time(work: Callable[[], Result]) -> Result | None:
             done.set_exception(error)
 
     Thread(target=run, name="dask-client", daemon=True).start()
+    return done
+
+
+def _in_time(done: Future[Result]) -> Result | None:
+    """Return its result; None if it takes longer than CONNECT_S and LONGER_S."""
     wait([done], CONNECT_S + LONGER_S)
     return done.result() if done.done() else None
 

@@ -3,6 +3,7 @@
 import socket
 import ssl
 import sys
+import threading
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -22,8 +23,9 @@ __all__ = ["leftovers"]
 pytestmark = LEFTOVERS
 
 
-@pytest.fixture(autouse=True)
+@pytest.fixture
 def less_patient(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Wait shorter for an answer that doesn't come. One that comes may take seconds on a busy machine."""
     monkeypatch.setattr(connection, "CONNECT_S", 3.0)
 
 
@@ -54,12 +56,14 @@ def test_machine_with_a_certificate_of_the_authority_is_let_in(secured: str, fol
         assert client.nthreads() == {}
 
 
+@pytest.mark.usefixtures("less_patient")
 def test_machine_with_keys_of_another_authority_is_refused(secured: str, folder: Path) -> None:
     address = SchedulerAddress(secured, folder / "other" / "pc")
     with pytest.raises(ClusterError, match="with keys of the same authority as"), connected(address):
         pytest.fail("let in")
 
 
+@pytest.mark.usefixtures("less_patient")
 def test_a_certificate_of_another_authority_is_refused_even_if_it_trusts_the_schedulers(
     secured: str, folder: Path, tmp_path: Path
 ) -> None:
@@ -71,6 +75,7 @@ def test_a_certificate_of_another_authority_is_refused_even_if_it_trusts_the_sch
         pytest.fail("let in")
 
 
+@pytest.mark.usefixtures("less_patient")
 def test_client_without_tls_is_refused_by_a_tls_scheduler(secured: str) -> None:
     address = SchedulerAddress(secured.replace("tls://", "tcp://"), None)
     with pytest.raises(ClusterError, match="one with keys is written tls://"), connected(address):
@@ -107,6 +112,7 @@ def test_game_refuses_a_peer_without_a_certificate_of_its_authority(secured: str
         assert not is_let_in(address, folder / "other" / "pc", certificate=True)
 
 
+@pytest.mark.usefixtures("less_patient")
 def test_a_client_with_keys_refuses_a_scheduler_without_tls(open_to_all: SchedulerAddress, folder: Path) -> None:
     address = SchedulerAddress(open_to_all.url.replace("tcp://", "tls://"), folder / "own" / "pc")
     with pytest.raises(ClusterError, match="with keys of the same authority as"), connected(address):
@@ -137,6 +143,30 @@ def test_a_scheduler_that_hangs_is_given_up(monkeypatch: pytest.MonkeyPatch) -> 
         address = SchedulerAddress(f"tcp://127.0.0.1:{hangs.getsockname()[1]}", None)
         with pytest.raises(ClusterError, match=r"^no scheduler answered at"), connected(address):
             pytest.fail("it doesn't answer")
+
+
+def test_a_connection_that_comes_too_late_is_closed(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(connection, "CONNECT_S", 0.1)
+    monkeypatch.setattr(connection, "LONGER_S", 0.0)
+    may_come, is_closed = threading.Event(), threading.Event()
+
+    class LateClient:
+        def close(self, timeout: float) -> None:
+            assert timeout == connection.CONNECT_S
+            is_closed.set()
+
+    def late(_: SchedulerAddress) -> LateClient:
+        assert may_come.wait(10)
+        return LateClient()
+
+    monkeypatch.setattr(connection, "_new_client", late)
+    with (
+        pytest.raises(ClusterError, match=r"^no scheduler answered at"),
+        connected(SchedulerAddress("tcp://a:1", None)),
+    ):
+        pytest.fail("it came in time")
+    may_come.set()
+    assert is_closed.wait(10)
 
 
 def test_error_without_dask_says_how_to_install_it(monkeypatch: pytest.MonkeyPatch) -> None:
