@@ -129,8 +129,10 @@ class InputController:
         """
         asked_at = self._clock.now()
         self._permit("world")
-        until += self._clock.now() - asked_at
-        if beside is not None and f"key {beside}" not in self._held:
+        with self._lock:
+            until += self._clock.now() - asked_at
+            is_beside = beside is None or f"key {beside}" in self._held
+        if not is_beside:
             raise NotConfirmedError(
                 f"{beside} did not stay down until the screen was seen, so {' '.join(keys)} is not pressed: "
                 "close what slows the computer down"
@@ -142,8 +144,10 @@ class InputController:
     def keep_until(self, until: float, *keys: str) -> None:
         """Change the release time of keys that are down."""
         for key in keys:
-            if held := self._held.get(f"key {key}"):
-                self._held[f"key {key}"] = _Held(held.release, min(until, self._clock.now() + LONGEST_S))
+            with self._lock:
+                latest = self._clock.now() + LONGEST_S
+                if held := self._held.get(f"key {key}"):
+                    self._held[f"key {key}"] = _Held(held.release, min(until, latest))
 
     def tap(self, key: str, on: PressTarget = "world") -> None:
         """Press and release a key that acts once per press, however long it is held."""
@@ -197,12 +201,14 @@ class InputController:
         """Let time pass until ``at``, and release what is due at its time."""
         try:
             while True:
-                now = self._clock.now()
-                soonest = min([now + TICK_S, *(held.due for held in list(self._held.values()))])
+                # With the clock's answer in one go: what another thread releases lies before both on tape, or behind.
+                with self._lock:
+                    soonest = min([self._clock.now() + TICK_S, *(held.due for held in self._held.values())])
                 self._clock.sleep_until(min(soonest, at))
-                now = self._clock.now()
-                self._release([name for name, held in list(self._held.items()) if held.due <= now])
-                self.held_s(now)
+                with self._lock:
+                    now = self._clock.now()
+                    self._release([name for name, held in self._held.items() if held.due <= now])
+                    self.held_s(now)
                 if now >= at:
                     return
                 self._check_running()
@@ -239,6 +245,10 @@ class InputController:
         """
         overdue = self._clock.now() - (OVERDUE_S if self.is_attended else 0.0)
         self._release([name for name, held in list(self._held.items()) if held.due <= overdue])
+
+    def was_released(self, name: str) -> None:
+        """Take note that the watchdog of a recorded run released a key or a button, by its name here."""
+        self._held.pop(name, None)
 
     def stop(self, reason: str) -> None:
         """Release everything now, and press nothing from then on. Any thread may call this."""

@@ -5,7 +5,8 @@
 /window   pictures of the window, as Foxglove's CompressedImage, the chat blanked
 
 A call is a list of plain values: its name, what it was asked, what it answered. Calls of the thread that plays are in
-their order, and nothing else decides what it does next; so the same calls, answered alike, are the same run.
+their order. Nothing else decides what it does next but the keys that another thread releases, which lie among them. So
+the same calls, answered alike, are the same run.
 
 ["now", 12.5]                        the clock's time            ["key", "press", "w"]     a key goes down
 ["sleep", 12.55]                     until then                  ["screen", "read", [], answer, pixels]
@@ -71,8 +72,8 @@ Call = list[Any]
 class Tape:
     """Collects calls, for a writer to take.
 
-    It belongs to the thread that makes it: what another thread does, as a watchdog that releases a key, is set down as
-    ``["elsewhere", ...]``, since its place among the others is chance.
+    It belongs to the thread that makes it. What another thread does is set down as ``["elsewhere", ...]``, where it
+    happened: a key that the watchdog released is up for the calls that follow.
     """
 
     def __init__(self) -> None:

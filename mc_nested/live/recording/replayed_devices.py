@@ -3,7 +3,7 @@
 Each call must be the one that was recorded, and gets the answer that was recorded.
 """
 
-from collections.abc import Collection, Iterator
+from collections.abc import Callable, Collection, Iterator
 from typing import Any
 
 import numpy as np
@@ -36,6 +36,9 @@ class ReplayedTape:
         """Whether what is called now is compared: only within an episode, until it first differs."""
         self.stop_reason: str | None = None
         """Why a person stopped the run, once the calls have come that far."""
+        self.on_release: Callable[[str], None] = lambda _: None
+        """Is told what another thread released, by the input controller's name of it, before the call that follows."""
+        self._released: list[list[Any]] = []
         self.count = 0
 
     def peek(self) -> list[Any] | None:
@@ -49,11 +52,15 @@ class ReplayedTape:
                 self._next = call
             elif call[1] == "stop":
                 self.stop_reason = str(call[2])
+            elif call[2] == "release":
+                self._released.append(call[1:])
+                self.on_release(f"key {call[3]}" if call[1] == "key" else f"{call[3]} button")
         return self._next
 
     def skip(self) -> None:
         """Go on behind the next call."""
         self._next = None
+        self._released.clear()
 
     def same(self, *asked: Any) -> list[Any]:
         """Return the recorded call, which must begin as this one; what follows is its answer.
@@ -62,6 +69,8 @@ class ReplayedTape:
         """
         now = plain_value(list(asked))
         then = self.peek()
+        if now in self._released:
+            return []  # this thread came too late for it
         if then is not None and then[0] == "error" and then[1] == asked[0]:
             self.skip()
             kind = getattr(errors, str(then[2]), errors.McNestedError)

@@ -1,6 +1,8 @@
 """Random play on the virtual client, recorded: for tests."""
 
 import itertools
+import threading
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -12,6 +14,7 @@ from mc_nested.arena.scenario import Scenario
 from mc_nested.arena.scenario_file import load_scenario, table_of
 from mc_nested.errors import LiveError
 from mc_nested.live.connection import GameConnection
+from mc_nested.live.devices import Clock
 from mc_nested.live.input.input_controller import InputController
 from mc_nested.live.live_game import LiveGame
 from mc_nested.live.profile.arena import Arena
@@ -42,6 +45,27 @@ def drawn(rng: np.random.Generator, scenario: Scenario) -> Following:
     return action, int(rng.integers(len(scenario.materials))) if scenario.parts else None
 
 
+class StallingClock:
+    """A clock of a busy computer: each ``every``-th sleep ends too late, and the watchdog wakes up first."""
+
+    def __init__(self, clock: Clock, every: int, late_s: float = 0.4) -> None:
+        self._clock, self._every, self._late_s = clock, every, late_s
+        self._sleeps = 0
+        self.controller: InputController | None = None
+
+    def now(self) -> float:
+        return self._clock.now()
+
+    def sleep_until(self, at: float) -> None:
+        self._sleeps += 1
+        is_late = self._sleeps % self._every == 0
+        self._clock.sleep_until(at + self._late_s * is_late)
+        if is_late and self.controller:
+            watchdog = threading.Thread(target=self.controller.release_overdue)
+            watchdog.start()
+            watchdog.join()
+
+
 def record_play(
     folder: Path,
     actions: int,
@@ -50,10 +74,12 @@ def record_play(
     scenario_name: str = "diamond",
     *,
     is_told: bool = False,
+    stalls_every: int | None = None,
 ) -> list[LiveError]:
     """Record random actions into a folder, and return the errors of those that failed.
 
-    With ``is_told`` each is announced beside the one before it.
+    With ``is_told`` each is announced beside the one before it; with ``stalls_every`` that many sleeps lie between two
+    stalls.
     """
     client = client or VirtualClient(seed=seed)
     scenario = load_scenario(scenario_name)
@@ -63,10 +89,14 @@ def record_play(
     facts = scenario_facts(scenario)
     with open_recorder(folder, "test", said_nothing, profile, client.devices, facts) as recording:
         assert recording
-        devices = recording.devices(client.devices)
+        clock = StallingClock(client.devices.clock, stalls_every) if stalls_every else None
+        devices = recording.devices(replace(client.devices, clock=clock or client.devices.clock))
+        controller = InputController(devices, InputTable())
+        if clock:
+            clock.controller = controller
         connection = GameConnection(
             devices,
-            InputController(devices, InputTable()),
+            controller,
             WindowScreen(devices.display, FONT, version=client.settings.version),
             journal=recording,
             on_screen=recording.screen,

@@ -161,6 +161,15 @@ def test_a_replay_follows_an_episode_with_mishaps(tmp_path: Path) -> None:
     assert (seen.differences, len(failed)) == ([], seen.actions - 12)
 
 
+@pytest.mark.parametrize("is_told", [False, True])
+def test_a_replay_follows_a_run_in_which_the_watchdog_released_keys(is_told: bool, tmp_path: Path) -> None:
+    record_play(tmp_path / "play", 40, seed=3, is_told=is_told, stalls_every=11)
+    elsewhere = [call.call[1:] for call in calls_of(tmp_path / "play") if call.call[0] == "elsewhere"]
+    assert sum(call[:2] == ["key", "release"] for call in elsewhere) > 5
+    seen = replay(tmp_path / "play", FONT)
+    assert (seen.differences, seen.followed) == ([], seen.actions)
+
+
 def test_a_recording_that_breaks_off_is_read_up_to_the_break(recording: Path, tmp_path: Path) -> None:
     calls = calls_of(recording)
     file = tmp_path / "whole.mcap"
