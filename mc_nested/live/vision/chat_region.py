@@ -105,7 +105,7 @@ class LastFrames:
 
     Args:
         display: the game's window.
-        folder: where they are written; without one, nothing is kept.
+        folder: where they are written; without one, nothing is.
         gui_scale: gives the chat's scale, framebuffer pixels to a GUI pixel, None where it isn't known.
     """
 
@@ -114,8 +114,11 @@ class LastFrames:
         self._frames: deque[Frame] = deque(maxlen=KEPT)
 
     def take(self) -> None:
-        """Keep what the window shows now, if it is in front."""
-        if self._folder is not None and self._display.is_in_front():
+        """Keep what the window shows now, if it is in front.
+
+        With or without a folder: a replay, which has none, must ask its devices what the run asked.
+        """
+        if self._display.is_in_front():
             self._frames.append(without_chat(self._display.grab(), self._gui_scale()))
 
     def save(self) -> list[Path]:

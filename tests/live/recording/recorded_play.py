@@ -79,7 +79,7 @@ def record_play(
     """Record random actions into a folder, and return the errors of those that failed.
 
     With ``is_told`` each is announced beside the one before it; with ``stalls_every`` that many sleeps lie between two
-    stalls.
+    stalls. The last frames of a game that is given up are kept beside the folder.
     """
     client = client or VirtualClient(seed=seed)
     scenario = load_scenario(scenario_name)
@@ -101,7 +101,7 @@ def record_play(
             journal=recording,
             on_screen=recording.screen,
         )
-        with LiveGame(scenario, profile, connection) as game:
+        with LiveGame(scenario, profile, connection, evidence=folder.parent / "evidence") as game:
             done = 0
             for episode in itertools.count():
                 game.reset(episode % len(scenario.materials))

@@ -16,6 +16,7 @@ from mc_nested.live.recording.text_pixels import OUTSIDE
 from mc_nested.live.vision.font import font_of
 from sim.client.client import VirtualClient
 from sim.client.drawing.letters import drawn_atlas
+from sim.client.mishaps import DRAWN, Kind
 from tests.live.recording.recorded_play import record_play
 from tests.sim.client.playing import FONT
 
@@ -150,6 +151,16 @@ def test_a_replay_follows_a_told_run_with_two_materials(tmp_path: Path) -> None:
     record_play(tmp_path / "flag", 24, scenario_name="flag", is_told=True)
     seen = replay(tmp_path / "flag", FONT)
     assert (seen.actions, seen.followed, seen.differences) == (24, 24, [])
+
+
+@pytest.mark.parametrize("kind", DRAWN)
+def test_a_replay_follows_a_run_with_a_mishap_during_its_first_reset(kind: Kind, tmp_path: Path) -> None:
+    client = VirtualClient(seed=2)
+    client.mishaps.plan(kind, 0.9)
+    record_play(tmp_path / "play", 12, client)
+    seen = replay(tmp_path / "play", FONT)
+    assert client.mishaps.happened
+    assert (seen.differences, seen.followed) == ([], seen.actions)
 
 
 def test_a_replay_follows_an_episode_with_mishaps(tmp_path: Path) -> None:

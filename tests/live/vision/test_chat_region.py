@@ -187,11 +187,11 @@ def test_another_window_is_never_pictured(tmp_path: Path) -> None:
     assert (last.save(), display.grabs) == ([], 0)
 
 
-def test_without_a_folder_no_frame_is_taken_or_saved() -> None:
+def test_without_a_folder_the_window_is_looked_at_as_with_one_and_nothing_is_saved() -> None:
     display = GreyDisplay()
     last = LastFrames(display, None, lambda: 1)
     last.take()
-    assert (last.save(), display.grabs) == ([], 0)
+    assert (last.save(), display.grabs) == ([], 1)
 
 
 def test_save_leaves_out_a_picture_that_can_not_be_written(tmp_path: Path) -> None:
