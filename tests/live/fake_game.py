@@ -10,6 +10,8 @@ import re
 from collections.abc import Callable, Collection
 from dataclasses import dataclass, field
 
+import numpy as np
+
 from mc_nested.live.connection import GameConnection
 from mc_nested.live.devices import Button, Devices, Frame, Keyboard, Pointer, Region
 from mc_nested.live.input.input_controller import InputController
@@ -281,7 +283,7 @@ class FakeScreen:
 
 
 class FakeDisplay:
-    """The fake game's window; it has no picture, since tests read the world itself."""
+    """The fake game's window; its picture is black, since tests read the world itself."""
 
     def __init__(self, game: FakeGame) -> None:
         self._game = game
@@ -296,7 +298,8 @@ class FakeDisplay:
         return self._game.is_in_front
 
     def grab(self, region: Region | None = None) -> Frame:
-        raise NotImplementedError(f"the fake game draws nothing, not even {region}")
+        height, width = (region.height, region.width) if region else self.size()[::-1]
+        return np.zeros((height, width, 3), np.uint8)
 
 
 class FakeKeyboard:
