@@ -4,7 +4,7 @@ The names of a box end in one column, its values begin in another. What is a val
 is darker, ``true`` and ``false`` are green and red; a title is white, all other lines have the names' colour (FACTS:
 The F3 debug screen). A line is taken whole where nothing can have begun to lie over it just behind its last ink: the
 ground goes on there as it was, isn't of one colour, or ends with the box; or the same world as under it goes on behind
-the box's end.
+the box's end. Letters that shine through another box are seen as such.
 """
 
 from functools import lru_cache
@@ -45,11 +45,17 @@ _BEHIND = 2
 _DARKEST = 22
 """Of the ground under a title, which is 27 at least."""
 
-_GREY, _SEEN_THROUGH = 80, (255 - 0x90) / 255
-"""A box's own grey, and the part of the world that shows through it: 0x90505050."""
+_GREY, _TITLE_GREY, _SEEN_THROUGH = 80, 48, (255 - 0x90) / 255
+"""A box's own grey and a title's, and the part of the world that shows through: 0x90505050, 0x90303030."""
 
 _SOME = 3
 """Rows in which ground of one colour that began to lie over a line would hardly be like the ground beside it."""
+
+_COVERED = tuple(round(grey + (255 - grey) * _SEEN_THROUGH) for grey in (_GREY, _TITLE_GREY))
+"""What the white of a value is like below another box, or its title."""
+
+_COVERED_COLUMNS, _COVERED_DOTS = 4, 3
+"""Columns behind a value's last ink in which its next letter begins, and dots of it that are enough to know it by."""
 
 _FLAT = 2
 """Levels by which ground of one colour may vary, or differ from the column beside it where it goes on."""
@@ -118,6 +124,8 @@ def _is_whole(picture: Frame, ink: bytes, ground: Bools, boxed: bytes, last: int
     behind = slice(last + 1, last + 1 + _BEHIND)
     if last < 0 or 0 in boxed[behind] or any(ink[behind]) or len(boxed) < last + 1 + _BEHIND:
         return False
+    if _shines_through(picture[:, last + 1 : last + 1 + _COVERED_COLUMNS]):
+        return False
     before, one, two = (picture[:, last + step].astype(np.int16) for step in (0, 1, 2))
     if _goes_on(before[ground[:, last]], one[ground[:, last]]) and _goes_on(one, two):
         return True
@@ -126,6 +134,15 @@ def _is_whole(picture: Frame, ink: bytes, ground: Bools, boxed: bytes, last: int
     three = picture[:, last + 3 : last + 4]
     is_flat = np.ptp(two, axis=0).max() <= _FLAT
     return not is_flat or not three.size or int(np.abs(two - three[:, 0]).max()) > _FLAT
+
+
+def _shines_through(behind: Frame) -> bool:
+    """Return whether a letter below another box is seen in a part (8, columns, 3): no letter fills a whole column."""
+    for level in _COVERED:
+        covered = np.abs(behind.astype(np.int16) - level).max(2) <= _FLAT
+        if np.count_nonzero(covered[:, ~covered.all(0)]) >= _COVERED_DOTS:
+            return True
+    return False
 
 
 def _ends_in_same_world(behind: Frame) -> bool:
