@@ -123,7 +123,8 @@ def test_a_client_listens_on_no_port(open_to_all: SchedulerAddress) -> None:
     psutil = pytest.importorskip("psutil")
     before = {each.laddr.port for each in psutil.Process().net_connections() if each.status == "LISTEN"}
     with connected(open_to_all):
-        assert {each.laddr.port for each in psutil.Process().net_connections() if each.status == "LISTEN"} == before
+        # Fewer may listen: what an earlier test has left may close meanwhile.
+        assert {each.laddr.port for each in psutil.Process().net_connections() if each.status == "LISTEN"} <= before
 
 
 def test_a_missing_scheduler_is_reported_in_one_line(monkeypatch: pytest.MonkeyPatch) -> None:
