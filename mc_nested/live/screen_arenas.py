@@ -26,8 +26,8 @@ from mc_nested.errors import LiveError, UserError
 from mc_nested.live.connection import GameConnection
 from mc_nested.live.devices import Frame, Region
 from mc_nested.live.vision.chat_region import messages_region
-from mc_nested.live.vision.debug_boxes import ALPHA, BRIGHTEST, GREY, ground_parts, has_letters, line_boxes
-from mc_nested.live.vision.layout import Scales
+from mc_nested.live.vision.debug_boxes import BRIGHTEST, ground_parts, has_letters, line_boxes
+from mc_nested.live.vision.layout import BOX_ALPHA, BOX_GREY, Scales
 
 SIDE = 84
 """Rows and columns of the small picture, as Mnih et al. (2015) took them of Atari's screens."""
@@ -73,13 +73,13 @@ def hidden_regions(size: tuple[int, int], scale: int) -> tuple[Region, ...]:
     return (messages_region(size, scale), *(Region(*(max(0, part) * scale for part in each)) for each in (bar, cross)))
 
 
-def _look_through(frame: Frame, greys: Float32s, seen: Float32s, box: Region, scale: int, grey: int = GREY) -> None:
+def _look_through(frame: Frame, greys: Float32s, seen: Float32s, box: Region, scale: int, grey: int = BOX_GREY) -> None:
     """Undo a box's grey. What its letters hide isn't seen, nor what an underline hides just below the box."""
     part, below = box.slices, Region(box.left, box.top + box.height, box.width, scale).slices
     # Where two boxes meet, what is left of the first one's world is not known.
-    seen[part] *= (cv2.inRange(frame[part], (0, 0, 0), (BRIGHTEST,) * 3) > 0) & (greys[part] >= grey * ALPHA - 1)
+    seen[part] *= (cv2.inRange(frame[part], (0, 0, 0), (BRIGHTEST,) * 3) > 0) & (greys[part] >= grey * BOX_ALPHA - 1)
     seen[below] *= ~has_letters(frame[below])
-    greys[part] = np.maximum(0, (greys[part] - grey * ALPHA) / (1 - ALPHA))
+    greys[part] = np.maximum(0, (greys[part] - grey * BOX_ALPHA) / (1 - BOX_ALPHA))
 
 
 def _smaller(picture: Float32s) -> Float32s:

@@ -17,12 +17,11 @@ from numpy.typing import NDArray
 
 from mc_nested.arrays import Bools
 from mc_nested.live.devices import Frame, Region
-from mc_nested.live.vision.debug_boxes import ALPHA, GREY, TITLE_GREY
 from mc_nested.live.vision.font import Font
 from mc_nested.live.vision.glyph_grid import GLYPH_ROWS, GlyphGrid, dots_in, dots_of
-from mc_nested.live.vision.layout import DISABLED, GLUE, INK_SPREAD, WHITE
+from mc_nested.live.vision.layout import BOX_ALPHA, BOX_GREY, DISABLED, GLUE, INK_SPREAD, TITLE_GREY, WHITE
 
-_GROUNDS = ((), (GREY,), (TITLE_GREY,), (GREY, GREY))
+_GROUNDS = ((), (BOX_GREY,), (TITLE_GREY,), (BOX_GREY, BOX_GREY))
 """The greys that may lie over a dot: none, one, or one of each column of the debug screen."""
 
 _INK = (1 << len(_GROUNDS)) - 1
@@ -138,7 +137,7 @@ def _codes(shade: int) -> NDArray[np.uint8]:
     for bit, ground in enumerate(_GROUNDS):
         ink, shadow = float(shade), float(shade >> 2)
         for grey in ground:
-            ink, shadow = (seen * (1 - ALPHA) + grey * ALPHA for seen in (ink, shadow))
+            ink, shadow = (seen * (1 - BOX_ALPHA) + grey * BOX_ALPHA for seen in (ink, shadow))
         codes |= (np.abs(greys - ink) <= INK_SPREAD).astype(np.uint8) << bit
         codes |= (np.abs(greys - shadow) <= INK_SPREAD).astype(np.uint8) << (bit + len(_GROUNDS))
     return codes

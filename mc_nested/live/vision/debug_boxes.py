@@ -19,14 +19,8 @@ from mc_nested.arrays import Bools
 from mc_nested.live.devices import Frame, Region
 from mc_nested.live.vision.fact_lines import VALUES
 from mc_nested.live.vision.glyph_grid import GLYPH_ROWS, dots_in
-from mc_nested.live.vision.layout import BOXES, GREEN, PLAIN, RED, VANILLA, WHITE, Colour
+from mc_nested.live.vision.layout import BOX_GREY, BOXES, GREEN, PLAIN, RED, TITLE_GREY, VANILLA, WHITE, Colour
 from mc_nested.live.vision.text_lines import ink_of
-
-ALPHA = 0x90 / 255
-"""How much of a box's grey is over the world: 0x90 of 0xFF (FACTS: The F3 debug screen)."""
-
-GREY, TITLE_GREY = 80, 48
-"""Of a box, and of a title's ground from 26.4 on, before the world shines through: 0x50 and 0x30."""
 
 BRIGHTEST = 175
 """No ground under a box is as bright: it is 157 at most; no ink is as dark in all its channels."""
@@ -196,7 +190,7 @@ def _grounds(lines: Sequence[_TextRow], has_title: bool) -> Iterator[tuple[int, 
     top, end = lines[0].row - 1, lines[-1].row + BOXES.pitch + 1
     if has_title:
         yield top, top + BOXES.pitch, TITLE_GREY
-    yield top + BOXES.pitch if has_title else top, end, GREY
+    yield top + BOXES.pitch if has_title else top, end, BOX_GREY
 
 
 def _in_pixels(rows: Sequence[int], first: int, end: int, scale: int) -> Region:

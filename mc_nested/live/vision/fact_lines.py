@@ -17,7 +17,17 @@ from mc_nested.arrays import Bools
 from mc_nested.live.devices import Frame
 from mc_nested.live.vision.font import Font
 from mc_nested.live.vision.glyph_grid import GLYPH_ROWS, GlyphGrid, GridPosition
-from mc_nested.live.vision.layout import GLUE, PURE_GREEN, PURE_RED, WHITE, Colour, Overlay
+from mc_nested.live.vision.layout import (
+    BOX_ALPHA,
+    BOX_GREY,
+    GLUE,
+    PURE_GREEN,
+    PURE_RED,
+    TITLE_GREY,
+    WHITE,
+    Colour,
+    Overlay,
+)
 from mc_nested.live.vision.text_lines import (
     BRIGHTEST,
     DARKEST,
@@ -45,17 +55,11 @@ _BEHIND = 2
 _DARKEST = 22
 """Of the ground under a title, which is 27 at least."""
 
-_GREY, _TITLE_GREY, _SEEN_THROUGH = 80, 48, (255 - 0x90) / 255
-"""A box's own grey and a title's, and the part of the world that shows through: 0x90505050, 0x90303030."""
-
 _SOME = 3
 """Rows in which ground of one colour that began to lie over a line would hardly be like the ground beside it."""
 
-_COVERED = tuple(round(grey + (255 - grey) * _SEEN_THROUGH) for grey in (_GREY, _TITLE_GREY))
-"""What the white of a value is like below another box, or its title."""
-
-_COVERED_COLUMNS, _COVERED_DOTS = 4, 3
-"""Columns behind a value's last ink in which its next letter begins, and dots of it that are enough to know it by."""
+_COVERED = tuple(round(255 + (grey - 255) * BOX_ALPHA) for grey in (BOX_GREY, TITLE_GREY))
+"""What the white of a value is like under another box, or its title."""
 
 _FLAT = 2
 """Levels by which ground of one colour may vary, or differ from the column beside it where it goes on."""
@@ -99,6 +103,7 @@ def _fact_in(
         if any(name_columns[at : last + 1]):  # something else is written over it
             text = name + UNKNOWN
     is_whole = _is_whole(picture, columns_of(ink), ground > 0, boxed, last)
+    is_whole = is_whole and not _shines_through(picture[:, last + 2 : last + 4], font)
     return Line(text, row, first, first + last, is_whole, first < left, last >= at), 0 in boxed
 
 
@@ -124,8 +129,6 @@ def _is_whole(picture: Frame, ink: bytes, ground: Bools, boxed: bytes, last: int
     behind = slice(last + 1, last + 1 + _BEHIND)
     if last < 0 or 0 in boxed[behind] or any(ink[behind]) or len(boxed) < last + 1 + _BEHIND:
         return False
-    if _shines_through(picture[:, last + 1 : last + 1 + _COVERED_COLUMNS]):
-        return False
     before, one, two = (picture[:, last + step].astype(np.int16) for step in (0, 1, 2))
     if _goes_on(before[ground[:, last]], one[ground[:, last]]) and _goes_on(one, two):
         return True
@@ -136,11 +139,12 @@ def _is_whole(picture: Frame, ink: bytes, ground: Bools, boxed: bytes, last: int
     return not is_flat or not three.size or int(np.abs(two - three[:, 0]).max()) > _FLAT
 
 
-def _shines_through(behind: Frame) -> bool:
-    """Return whether a letter below another box is seen in a part (8, columns, 3): no letter fills a whole column."""
+def _shines_through(behind: Frame, font: Font) -> bool:
+    """Return whether a letter under another box begins in a part (8, 2, 3), where a value's next letter would be."""
     for level in _COVERED:
-        covered = np.abs(behind.astype(np.int16) - level).max(2) <= _FLAT
-        if np.count_nonzero(covered[:, ~covered.all(0)]) >= _COVERED_DOTS:
+        is_covered = np.abs(behind.astype(np.int16) - level).max(2, initial=0) <= _FLAT
+        seen = columns_of(np.where(is_covered, 255, 0).astype(np.uint8))
+        if any(seen) and any((glyph + b"\0")[:2] == seen for glyph in font.glyphs.values()):
             return True
     return False
 
@@ -152,7 +156,7 @@ def _ends_in_same_world(behind: Frame) -> bool:
     if not is_other.any():
         return False
     world = columns[:, is_other.argmax()]
-    return float(np.abs(_GREY + (world - _GREY) * _SEEN_THROUGH - columns[:, 0]).max()) <= _FLAT
+    return float(np.abs(world + (BOX_GREY - world) * BOX_ALPHA - columns[:, 0]).max()) <= _FLAT
 
 
 def _goes_on(one: NDArray[np.int16], other: NDArray[np.int16]) -> bool:

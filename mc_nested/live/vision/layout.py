@@ -16,6 +16,12 @@ INK_SPREAD = 4
 PLAIN: Colour = (224, 224, 224)
 """The debug screen's text, what is typed into the chat, and the buttons' labels before 1.16."""
 
+BOX_ALPHA = 0x90 / 255
+"""How much of a box's grey is over the world: 0x90 of 0xFF (FACTS: The F3 debug screen)."""
+
+BOX_GREY, TITLE_GREY = 80, 48
+"""Of a box, and of a title's ground from 26.4 on, before the world shines through: 0x50 and 0x30."""
+
 WHITE: Colour = (255, 255, 255)
 GLUE: Colour = (208, 208, 208)
 """What stands between the values, which are white, of the debug screen from 26.4 on."""

@@ -125,8 +125,9 @@ def _measured(dots: GlyphGrid, font: Font, label: str, position: GridPosition) -
     colour, ink = _ink_of(dots, font, label, position)
     boxes = Overlay(dots.scale, BOXES, colour)
     row, behind = position[0], position[1] + ink.shape[1]
-    # Only where a value may follow is it read.
-    may_follow = label == TITLE or ink_of(dots.strip(row, behind, behind + _VALUE), WHITE).any()
+    # Only where a value may follow is it read; behind a label at the window's side there is nothing.
+    follows = dots.strip(row, behind, behind + _VALUE)
+    may_follow = label == TITLE or (follows.size > 0 and ink_of(follows, WHITE).any())
     if may_follow and _is_of_boxes(fact_from(dots, font, boxes, position), label):
         return boxes
     overlays = [Overlay(dots.scale, layout, colour) for layout in (VANILLA, STANDIN)]

@@ -11,14 +11,12 @@ import pytest
 from mc_nested.live.devices import Frame, Region
 from mc_nested.live.model.reading import Target
 from mc_nested.live.vision.debug_boxes import (
-    ALPHA,
-    GREY,
-    TITLE_GREY,
     GroundPart,
     ground_parts,
     has_letters,
     line_boxes,
 )
+from mc_nested.live.vision.layout import BOX_ALPHA, BOX_GREY, TITLE_GREY
 from sim.client.drawing.f3_layers import paint
 from sim.client.drawing.painter import WORLDS, random_world
 from sim.client.game.f3_screen import F3Screen
@@ -75,7 +73,7 @@ def test_a_box_mixes_the_world_with_its_grey() -> None:
     frame = paint(bare(600, 300), SCREEN, FONT)
     box = line_boxes(frame, 1)[0]
     under = frame[box.top, box.left]
-    assert under.tolist() == [round(GREY * ALPHA + 100 * (1 - ALPHA))] * 3
+    assert under.tolist() == [round(BOX_GREY * BOX_ALPHA + 100 * (1 - BOX_ALPHA))] * 3
 
 
 def test_letters_are_white_green_or_red() -> None:
@@ -118,7 +116,7 @@ def test_most_grounds_are_found_over_any_world(kind: str) -> None:
 
 def test_titles_lie_on_a_ground_of_their_own_grey() -> None:
     parts = ground_parts(paint(np.full((300, 700, 3), 100, np.uint8), BOXED_SCREEN, FONT), 1)
-    assert {part.grey for part in parts} == {TITLE_GREY, GREY}
+    assert {part.grey for part in parts} == {TITLE_GREY, BOX_GREY}
     assert all(part.region.height == 9 for part in parts if part.grey == TITLE_GREY)
 
 
