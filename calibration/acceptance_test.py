@@ -14,7 +14,7 @@ from mc_nested.arena import rules
 from mc_nested.arena.action import Action, Cell
 from mc_nested.arena.game import Outcome
 from mc_nested.arena.scenario import Material, Scenario
-from mc_nested.errors import NotConfirmedError
+from mc_nested.errors import NotConfirmedError, WrongScreenError
 from mc_nested.live.live_game import LiveGame
 from mc_nested.live.profile.tables import Profile
 from mc_nested.live.vision.chat_region import without_chat
@@ -30,10 +30,20 @@ SCENARIO = Scenario(
 def run_acceptance_test(context: CalibrationContext, profile: Profile) -> StepResult:
     """Take each action once, and check that the screen shows what the rules say. Then clear the blocks again.
 
+    After a mishap it starts over once: a stall of a busy machine carries the agent on, a wrong profile does so again.
+
     Raises:
         LiveError: an action did not go as the rules say, or the game did not obey. The profile is not good.
         UserError: a profile without arena or font, or a world that others share.
     """
+    try:
+        return _take_each_action(context, profile)
+    except (NotConfirmedError, WrongScreenError) as error:
+        context.say(f"{error}; the acceptance test starts over once")
+    return _take_each_action(context, profile)
+
+
+def _take_each_action(context: CalibrationContext, profile: Profile) -> StepResult:
     connection = context.connection.for_profile(profile)
     game = LiveGame(SCENARIO, profile, connection)
     cell, placed = game.reset(0), set[Cell]()

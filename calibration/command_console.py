@@ -2,16 +2,13 @@
 
 from collections.abc import Callable
 
-from mc_nested.errors import NotConfirmedError, UnreadableError, WrongScreenError
+from mc_nested.errors import NotConfirmedError, UnreadableError
 from mc_nested.live.connection import GameConnection
 from mc_nested.live.devices import Deadline
 from mc_nested.live.menus.chat import Chat
 from mc_nested.live.model.reading import Reading
 from mc_nested.live.model.timing import TYPING_LOOK_S
 from mc_nested.live.profile.tables import Profile
-
-TRIES = 4
-"""How often a line is begun at most: on a busy machine its letters may come so late that the rest isn't typed."""
 
 
 class CommandConsole:
@@ -29,14 +26,7 @@ class CommandConsole:
     def send(self, command: str) -> None:
         """Send a command."""
         self._check_in_world()
-        for tries_left in reversed(range(TRIES)):
-            try:
-                self._chat.send(command)
-                break
-            except WrongScreenError:
-                if not tries_left or not self._profile.input.reads_chat:
-                    raise
-                self._leave_chat()
+        self._chat.send(command)
 
     def read(self) -> Reading:
         """Read the debug screen; wait while it can't be read."""
@@ -63,16 +53,8 @@ class CommandConsole:
         self._chat.clear()
         self._check_in_world()
 
-    def _leave_chat(self) -> None:
-        """Close the chat, which holds a half-typed line, and check that the world is visible again."""
-        if self._screen.is_chat_open():
-            self._controller.confirm_screen("chat")
-            self._controller.tap("esc", on="chat")
-            self._controller.wait(self._profile.input.chat_close_s)
-        self._check_in_world()
-
     def _check_in_world(self) -> None:
         self.read()
         if self._screen.is_chat_open():
             raise NotConfirmedError("the chat is open: leave mouse and keys alone, and start again")
-        self._controller.confirm_screen("world")
+        self._controller.confirm_screen("world", self._check_in_world)

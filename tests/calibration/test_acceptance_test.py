@@ -2,6 +2,7 @@
 
 import dataclasses
 from pathlib import Path
+from typing import cast
 
 import pytest
 
@@ -10,7 +11,7 @@ from mc_nested.arena import rules
 from mc_nested.arena.action import Action, Cell
 from mc_nested.errors import LiveError
 from mc_nested.live.connection import GameConnection
-from mc_nested.live.devices import Frame, Region
+from mc_nested.live.devices import Display, Frame, Region
 from mc_nested.live.profile.arena import Arena
 from mc_nested.live.profile.tables import BlocksTable, GameVersion, KeysTable, Profile, ScreenTable
 from sim.client.client import VirtualClient
@@ -58,6 +59,35 @@ def test_a_good_profile_passes_and_the_arena_is_left_empty(version: str, font: P
     assert (found.samples, len(found.pictures)) == (8, 1)
     assert client.built == {}
     assert not client.window.down
+
+
+class PushingDisplay:
+    """A window whose player is pushed aside in the world, once, when the first block stands."""
+
+    def __init__(self, client: VirtualClient) -> None:
+        self._client, self._is_pushed = client, False
+
+    def __getattr__(self, name: str) -> object:
+        return getattr(self._client.display, name)
+
+    def grab(self, region: Region | None = None) -> Frame:
+        if self._client.built and not self._is_pushed:
+            self._is_pushed = True
+            x, y, z = self._client.realm.player.feet
+            self._client.realm.player.feet = (x + 4.0, y, z)
+        return self._client.display.grab(region)
+
+
+def test_an_agent_that_is_carried_off_once_starts_over(font: Path) -> None:
+    client, said = VirtualClient(), list[str]()
+    profile = profile_of(client, font)
+    context = context_over(client)
+    devices = dataclasses.replace(context.devices, display=cast("Display", PushingDisplay(client)))
+    pushed = dataclasses.replace(context, connection=GameConnection(devices, context.controller), say=said.append)
+    found = run_acceptance_test(pushed, profile)
+    assert found.lines[0] == "8 actions, 4 blocks: each where it should be"
+    assert [line.rpartition("; ")[2] for line in said] == ["the acceptance test starts over once"], said
+    assert (client.built, client.window.down) == ({}, set())
 
 
 class Witness:

@@ -4,10 +4,10 @@ from pathlib import Path
 
 import pytest
 
-from calibration.command_console import TRIES, CommandConsole
-from mc_nested.errors import NotConfirmedError, UnreadableError, WrongScreenError
+from calibration.command_console import CommandConsole
+from mc_nested.errors import NotConfirmedError, UnreadableError
+from mc_nested.live.input.input_controller import FRESH_S
 from mc_nested.live.menus.chat import Chat
-from mc_nested.live.profile.tables import Profile
 from sim.client.client import VirtualClient
 from tests.calibration.contexts import context_over, profile_in, started
 
@@ -61,45 +61,26 @@ def test_the_chat_is_cleared_by_d_while_the_debug_key_is_held(client: VirtualCli
     assert third - first == pytest.approx(0.1, abs=0.01)
 
 
-class LateChat(Chat):
-    """A chat whose first lines aren't typed to their end."""
-
-    def __init__(self, failures: int) -> None:
-        self.failures = failures
-        self.tries = 0
-
-    def send(self, command: str) -> None:
-        self.tries += 1
-        if self.tries <= self.failures:
-            raise WrongScreenError(f"{command} was not typed")
-
-
-class LateConsole(CommandConsole):
-    def __init__(self, client: VirtualClient, profile: Profile, chat: LateChat) -> None:
-        super().__init__(context_over(client).connection.for_profile(profile), profile)
-        self._chat = chat
-
-
-def test_command_that_is_not_typed_to_its_end_is_tried_four_times_at_most(
-    client: VirtualClient, tmp_path: Path
-) -> None:
-    late, never = LateChat(TRIES - 1), LateChat(TRIES)
-    LateConsole(client, profile_in(tmp_path), late).send("/time set 6000")
-    assert late.tries == TRIES == 4
-    with pytest.raises(WrongScreenError):
-        LateConsole(client, profile_in(tmp_path), never).send("/time set 6000")
-    assert never.tries == TRIES
-
-
-def test_command_is_typed_only_once_if_the_profile_does_not_read_the_chat(
-    client: VirtualClient, tmp_path: Path
+@pytest.mark.parametrize("reads_chat", [True, False])
+def test_a_stall_just_before_the_chat_is_opened_makes_a_command_late_and_does_not_refuse_it(
+    reads_chat: bool, client: VirtualClient, tmp_path: Path
 ) -> None:
     profile = profile_in(tmp_path)
-    blind = profile.model_copy(update={"input": profile.input.model_copy(update={"reads_chat": False})})
-    chat = LateChat(1)
-    with pytest.raises(WrongScreenError):
-        LateConsole(client, blind, chat).send("/time set 6000")
-    assert chat.tries == 1
+    profile = profile.model_copy(update={"input": profile.input.model_copy(update={"reads_chat": reads_chat})})
+
+    class StalledChat(Chat):
+        def send(self, line: str) -> None:
+            stalls.append(line)
+            client.clock.sleep(FRESH_S + 0.01)
+            super().send(line)
+
+    stalls: list[str] = []
+    connection = context_over(client).connection.for_profile(profile)
+    console = CommandConsole(connection, profile)
+    console._chat = StalledChat(profile, connection)
+    console.send("/tp @s 3.5 64 5.5 90 30")
+    assert console.watch(lambda seen: seen.pitch == 30.0, 1.0) is not None
+    assert stalls == ["/tp @s 3.5 64 5.5 90 30"]
 
 
 def test_chat_is_never_cleared_if_the_profile_does_not_read_it(client: VirtualClient, tmp_path: Path) -> None:

@@ -32,6 +32,12 @@ LONGEST_S = 3.0
 PATIENCE_S = 0.6
 """How long the world may not be seen before a press is refused."""
 
+SLOW_S = 2.0
+"""How long each look may take too long to permit a press, as on a busy machine, before it is refused."""
+
+LETTER_TRIES = 5
+"""How often a letter is tried for which the chat was seen too long ago."""
+
 OVERDUE_S = 0.25
 """Seconds past its release time after which the watchdog releases a key."""
 
@@ -187,11 +193,21 @@ class InputController:
         self.wait(self._timing.click_s)
 
     def type_line(self, text: str) -> None:
-        """Type a line into the open chat, without sending it."""
+        """Type a line into the open chat, without sending it. Where a letter comes late, the chat is seen once more."""
         for letter in text:
-            with self._lock:
-                self._check_press("chat")
-                self._keyboard.type(letter)
+            for tries_left in reversed(range(LETTER_TRIES)):
+                try:
+                    self._type(letter)
+                    break
+                except WrongScreenError:
+                    if self._look_again is None or not self._was_seen("chat") or not tries_left:
+                        raise
+                    self._look_again()
+
+    def _type(self, letter: str) -> None:
+        with self._lock:
+            self._check_press("chat")
+            self._keyboard.type(letter)
 
     def wait(self, seconds: float) -> None:
         """Let that many seconds pass, and release what is due."""
@@ -275,7 +291,7 @@ class InputController:
         The caller holds no lock: a look may take long, and meanwhile others must be able to release everything.
         """
         try:
-            if self._confirmed and self._confirmed[0] == screen and not self._is_fresh(screen) and self._look_again:
+            if self._was_seen(screen) and not self._is_fresh(screen) and self._look_again:
                 self._look_again()
             if screen == "world":
                 self._look_for_world()
@@ -289,30 +305,32 @@ class InputController:
         A picture may be black for a moment, and a look may take long on a busy machine: then all is looked at again.
         """
         was_fresh, must_look_again = self._is_fresh("world"), False
-        until = self._clock.now() + PATIENCE_S
+        began_at = self._clock.now()
         while True:
             began = self._clock.now()
             is_seen = self._sees_world()
             now = self._clock.now()
             self.look_s = now - began
             if not is_seen:
-                if now >= until:
+                if now >= began_at + PATIENCE_S:
                     raise WrongScreenError(
                         "the world is not seen with nothing over it, so nothing is pressed: close the chat or the "
                         "menu, show the hotbar (F1), and take off a resource pack that draws it otherwise"
                     )
                 self.wait(TICK_S / 2)
                 must_look_again = True
-            elif not was_fresh:
-                return  # nothing that was seen permits the press, whatever the last look says
-            elif self._look_again is None:
-                self._confirmed = "world", now
+            elif self._look_again is None or not self._was_seen("world"):
+                if was_fresh:  # else nothing that was seen permits the press, whatever the last look says
+                    self._confirmed = "world", now
                 return
-            elif (self._is_fresh("world") and not must_look_again) or now >= until:
+            elif (self._is_fresh("world") and not must_look_again) or now >= began_at + SLOW_S:
                 return
             else:
                 self._look_again()
                 must_look_again = False
+
+    def _was_seen(self, screen: PressTarget) -> bool:
+        return self._confirmed is not None and self._confirmed[0] == screen
 
     def _is_fresh(self, screen: PressTarget) -> bool:
         confirmed, at = self._confirmed or ("nothing", self._clock.now())

@@ -70,7 +70,6 @@ class Chat:
             self.clear()
         self._open()
         self._type(line)
-        self._controller.confirm_screen("chat")
         self._controller.tap("enter", on="chat")
         if self._is_counted:
             self._lines.note(line, self._clock.now())
@@ -123,16 +122,17 @@ class Chat:
         return is_open and not is_typed
 
     def _type(self, line: str) -> None:
-        # A chat that can't be read gets single letters: one that comes late must not end the line.
-        letters = LETTERS_PER_LOOK if self._timing.reads_chat else 1
-        for first in range(0, len(line), letters):
+        for first in range(0, len(line), LETTERS_PER_LOOK):
             # Looked at again and again: on a busy machine a line takes a while, and the chat may close.
-            if self._timing.reads_chat:
-                self._wait_until(self._screen.is_chat_open, "the chat did not stay open")
-            self._controller.confirm_screen("chat")
-            self._controller.type_line(line[first : first + letters])
+            self._look(self._screen.is_chat_open, "the chat did not stay open")
+            self._controller.type_line(line[first : first + LETTERS_PER_LOOK])
+        self._look(lambda: self._screen.is_typed(line), f"{line!r} was not seen in the chat{_CHANGED}")
+
+    def _look(self, is_so: Callable[[], bool], problem: str) -> None:
+        """Confirm the chat once it looks as it should, now and for a press that comes late; a blind one at once."""
         if self._timing.reads_chat:
-            self._wait_until(lambda: self._screen.is_typed(line), f"{line!r} was not seen in the chat{_CHANGED}")
+            self._wait_until(is_so, problem)
+        self._controller.confirm_screen("chat", lambda: self._look(is_so, problem))
 
     def _wait_until(self, is_so: Callable[[], bool], problem: str) -> None:
         deadline = Deadline(self._clock, PATIENCE_S)

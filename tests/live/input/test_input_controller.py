@@ -7,12 +7,13 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mc_nested.errors import NotInFrontError, StoppedError, WrongScreenError
+from mc_nested.errors import NotConfirmedError, NotInFrontError, StoppedError, WrongScreenError
 from mc_nested.live.input.input_controller import (
     FRESH_S,
     LONGEST_S,
     OVERDUE_S,
     PATIENCE_S,
+    SLOW_S,
     InputController,
     PressTarget,
 )
@@ -126,17 +127,74 @@ def test_a_press_long_after_a_look_is_sent_only_if_a_second_look_confirms_the_sc
 
     def look_again() -> None:
         looks.append(press)
-        if len(looks) == 2:
-            controller.confirm_screen("world")
+        if len(looks) == 1:
+            raise NotConfirmedError("the player was turned")
+        controller.confirm_screen("world")
 
     controller.confirm_screen("world", look_again)
     game.clock.sleep_until(game.clock.now() + FRESH_S + 0.01)
-    with pytest.raises(WrongScreenError, match="the world was not just seen"):
+    with pytest.raises(NotConfirmedError, match="turned"):
         _press(controller, press)
     assert game.presses == []
     _press(controller, press)
     assert len(looks) == 2
     assert len(game.presses) == 1
+
+
+@pytest.mark.parametrize("slow_s", [FRESH_S + 0.01, 0.9, SLOW_S - 0.01])
+def test_a_press_waits_for_a_quick_look_where_looks_are_slow_for_a_while(slow_s: float) -> None:
+    game = FakeGame(PROFILE)
+    controller = _controller(game)
+    quick_from = game.clock.now() + slow_s
+
+    def look() -> bool:
+        game.clock.sleep_until(game.clock.now() + (0.01 if game.clock.now() >= quick_from else FRESH_S + 0.01))
+        return True
+
+    def look_again() -> None:
+        look()
+        controller.confirm_screen("world", look_again)
+
+    controller.guard_world(look)
+    controller.confirm_screen("world", look_again)
+    controller.tap("1")
+    assert game.presses == ["1"]
+
+
+def test_a_press_is_refused_where_every_look_is_slow() -> None:
+    game = FakeGame(PROFILE)
+    controller = _controller(game)
+
+    def look() -> bool:
+        game.clock.sleep_until(game.clock.now() + FRESH_S + 0.01)
+        return True
+
+    def look_again() -> None:
+        controller.confirm_screen("world", look_again)
+        look()
+
+    controller.guard_world(look)
+    controller.confirm_screen("world", look_again)
+    began = game.clock.now()
+    with pytest.raises(WrongScreenError, match="the world was not just seen"):
+        controller.tap("1")
+    assert SLOW_S <= game.clock.now() - began < SLOW_S + 1.0
+    assert game.presses == []
+
+
+def test_a_stall_just_after_a_second_look_makes_a_press_late_and_does_not_refuse_it() -> None:
+    game = FakeGame(PROFILE)
+    controller = _controller(game)
+    stalls = iter([FRESH_S + 0.01])
+
+    def look_again() -> None:
+        controller.confirm_screen("world", look_again)
+        game.clock.sleep_until(game.clock.now() + next(stalls, 0.0))
+
+    controller.confirm_screen("world", look_again)
+    game.clock.sleep_until(game.clock.now() + FRESH_S + 0.01)
+    controller.tap("1")
+    assert game.presses == ["1"]
 
 
 def test_a_press_soon_after_a_look_or_for_another_screen_does_not_look_again() -> None:

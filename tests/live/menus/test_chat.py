@@ -3,6 +3,7 @@
 import pytest
 
 from mc_nested.errors import NotConfirmedError
+from mc_nested.live.input.input_controller import FRESH_S
 from mc_nested.live.menus.chat import PATIENCE_S, Chat
 from mc_nested.live.model.timing import TYPING_LOOK_S
 from mc_nested.live.profile.tables import InputTable, Profile
@@ -69,6 +70,43 @@ def test_a_profile_that_can_not_read_the_chat_waits_fixed_times_instead() -> Non
     assert screen.looks == 0
     # Two taps of a tick each, and the two waits: typing itself takes no time here.
     assert game.clock.now() == pytest.approx(100.0 + 0.05 + 0.3 + 0.05 + 0.7)
+
+
+@pytest.mark.parametrize("profile", [Profile(), BLIND])
+def test_letters_that_come_late_are_typed_after_another_look(profile: Profile) -> None:
+    game = FakeGame(profile)
+    screen = ChatScreen(game)
+    connection = connection_to(game, screen)
+    connection.controller.confirm_screen("world")
+    typed = connection.devices.keyboard.type
+
+    def type_and_stall(text: str) -> None:
+        typed(text)
+        game.clock.sleep_until(game.clock.now() + FRESH_S + 0.01)
+
+    connection.devices.keyboard.type = type_and_stall  # type: ignore[method-assign]
+    Chat(profile, connection).send(LINE)
+    assert game.commands == [LINE]
+    assert game.presses == ["t", "enter"]
+
+
+def test_a_chat_that_closes_while_a_letter_is_late_gets_no_more_letters() -> None:
+    game = FakeGame(Profile())
+    screen = ChatScreen(game)
+    connection = connection_to(game, screen)
+    connection.controller.confirm_screen("world")
+    typed = connection.devices.keyboard.type
+
+    def type_and_stall(text: str) -> None:
+        typed(text)
+        game.clock.sleep_until(game.clock.now() + FRESH_S + 0.01)
+        screen.closed_from_look = 0
+
+    connection.devices.keyboard.type = type_and_stall  # type: ignore[method-assign]
+    with pytest.raises(NotConfirmedError, match="the chat did not stay open"):
+        Chat(game.profile, connection).send(LINE)
+    assert screen.seen[-1] == LINE[0]
+    assert game.commands == []
 
 
 def test_a_chat_that_does_not_open_in_time_is_an_error_and_nothing_is_typed() -> None:
