@@ -9,9 +9,13 @@ import re
 import shutil
 import subprocess
 import tarfile
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
+from mc_nested.file_lock import file_lock
 from scripts.programs import XDOTOOL, XVFB, MissingError, Program, Say, install, run_logged
 from scripts.window_display import SETXKBMAP
 
@@ -66,6 +70,10 @@ def fetch_all(cache: Path, say: Say) -> None:
         fetch(pack, cache, say, logs / "npm.log")
 
 
+LOOK_S = 0.2
+"""Seconds between two looks whether another process is done."""
+
+
 def check_node() -> None:
     """Raise MissingError if Node is too old for the game server."""
     asked = [NODE.required(), "--version"]
@@ -79,20 +87,33 @@ def check_node() -> None:
 def install_locked(what: str, locked: Path, folder: Path, say: Say, log: Path) -> Path:
     """Install with npm into ``folder`` what the lock file in ``locked`` pins; return its node_modules.
 
-    What is there already is left as it is.
+    What is there already is left as it is. Where another process installs it just now, that is waited for.
     """
     lock = (locked / "package-lock.json").read_bytes()
     done = folder / "installed-lock.json"
-    if not (done.exists() and done.read_bytes() == lock):
-        say(f"installing {what} with npm")
-        shutil.rmtree(folder, ignore_errors=True)
-        folder.mkdir(parents=True)
-        for name in ("package.json", "package-lock.json"):
-            shutil.copy(locked / name, folder / name)
-        if not run_logged([NPM.required(), "ci", "--ignore-scripts", "--no-audit", "--no-fund"], log, cwd=folder):
-            raise MissingError(f"npm could not install {what} (see {log}): can the registry be reached?")
-        done.write_bytes(lock)
+    folder.parent.mkdir(parents=True, exist_ok=True)
+    with _in_turn(folder.with_name(f"{folder.name}.lock")):
+        if not (done.exists() and done.read_bytes() == lock):
+            say(f"installing {what} with npm")
+            shutil.rmtree(folder, ignore_errors=True)
+            folder.mkdir()
+            for name in ("package.json", "package-lock.json"):
+                shutil.copy(locked / name, folder / name)
+            if not run_logged([NPM.required(), "ci", "--ignore-scripts", "--no-audit", "--no-fund"], log, cwd=folder):
+                raise MissingError(f"npm could not install {what} (see {log}): can the registry be reached?")
+            done.write_bytes(lock)
     return folder / "node_modules"
+
+
+@contextmanager
+def _in_turn(path: Path) -> Iterator[None]:
+    """Wait until no other process has this lock, and hold it for the block."""
+    while True:
+        with file_lock(path) as lock:
+            if lock.is_mine:
+                yield
+                return
+        time.sleep(LOOK_S)
 
 
 def fetch(pack: Pack, cache: Path, say: Say, log: Path) -> Path:

@@ -6,6 +6,7 @@ import io
 import re
 import sys
 import tarfile
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import pytest
@@ -83,6 +84,22 @@ def test_packages_of_a_lock_file_are_installed_once(tmp_path: Path, programs: Pa
     (source / "package-lock.json").write_text("2")
     parts.install_locked("it", source, tmp_path / "node", silent, tmp_path / "log")
     assert (tmp_path / "calls").read_text() == "xx"
+
+
+def test_packages_that_several_want_at_once_are_installed_by_one(tmp_path: Path, programs: Path) -> None:
+    source = tmp_path / "source"
+    source.mkdir()
+    for name in ("package.json", "package-lock.json"):
+        (source / name).write_text("{}")
+    calls = f"open({str(tmp_path / 'calls')!r}, 'a').write('x')"
+    write_program(programs, "npm", f"import time; os.mkdir('node_modules'); time.sleep(0.3); {calls}")
+
+    def install(_: int) -> bool:
+        return parts.install_locked("it", source, tmp_path / "node", silent, tmp_path / "log").is_dir()
+
+    with ThreadPoolExecutor(4) as together:
+        assert list(together.map(install, range(4))) == [True] * 4
+    assert (tmp_path / "calls").read_text() == "x"
 
 
 @pytest.mark.parametrize("says", ["v16.20.2", "nonsense", ""])
