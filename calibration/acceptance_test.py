@@ -14,8 +14,8 @@ from mc_nested.arena import rules
 from mc_nested.arena.action import Action, Cell
 from mc_nested.arena.game import Outcome
 from mc_nested.arena.scenario import Material, Scenario
-from mc_nested.errors import NotConfirmedError, WrongScreenError
-from mc_nested.live.live_game import LiveGame
+from mc_nested.errors import NotConfirmedError
+from mc_nested.live.live_game import LiveGame, started_over
 from mc_nested.live.profile.tables import Profile
 from mc_nested.live.vision.chat_region import without_chat
 from mc_nested.live.vision.game_screen import seen_gui_scale
@@ -30,17 +30,13 @@ SCENARIO = Scenario(
 def run_acceptance_test(context: CalibrationContext, profile: Profile) -> StepResult:
     """Take each action once, and check that the screen shows what the rules say. Then clear the blocks again.
 
-    After a mishap it starts over once: a stall of a busy machine carries the agent on, a wrong profile does so again.
+    After a mishap it starts over once: a stall of a busy machine ends one try, a wrong profile each.
 
     Raises:
         LiveError: an action did not go as the rules say, or the game did not obey. The profile is not good.
         UserError: a profile without arena or font, or a world that others share.
     """
-    try:
-        return _take_each_action(context, profile)
-    except (NotConfirmedError, WrongScreenError) as error:
-        context.say(f"{error}; the acceptance test starts over once")
-    return _take_each_action(context, profile)
+    return started_over(lambda: _take_each_action(context, profile), context.say, tries=2)
 
 
 def _take_each_action(context: CalibrationContext, profile: Profile) -> StepResult:

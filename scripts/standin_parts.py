@@ -22,6 +22,9 @@ from scripts.window_display import SETXKBMAP
 NODE_FOLDER = Path(__file__).resolve().parent / "standin"
 OLDEST_NODE = 18
 
+LOOK_S = 0.2
+"""Seconds between two looks whether another process is done."""
+
 NODE = Program(("node", "nodejs"), "nodejs")
 NPM = Program(("npm",), "npm")
 BROWSER = Program(("chromium", "google-chrome"), "chromium")
@@ -68,10 +71,6 @@ def fetch_all(cache: Path, say: Say) -> None:
     install_locked("the game server", NODE_FOLDER, cache / "node", say, logs / "npm.log")
     for pack in (WEB_CLIENT, FONTS):
         fetch(pack, cache, say, logs / "npm.log")
-
-
-LOOK_S = 0.2
-"""Seconds between two looks whether another process is done."""
 
 
 def check_node() -> None:

@@ -30,10 +30,11 @@ from mc_nested.cli.options import (
 )
 from mc_nested.cli.output import JsonOption, Output, QuietOption, prints
 from mc_nested.cli.view import Viewed, ViewOption, viewed
-from mc_nested.cli.watching import VideoOption, filmed, started_over, times_of, watched
+from mc_nested.cli.watching import VideoOption, filmed, say_aside, times_of, watched
 from mc_nested.errors import ScenarioError, UserError
 from mc_nested.learn.evaluation import BuildStep, GreedyEpisode, steps_of, take_steps
 from mc_nested.learn.objectives.weights import agent_of, shipped_weights
+from mc_nested.live.live_game import started_over
 from mc_nested.live.profile.store import load_profile, profile_path
 from mc_nested.report.film import check_film
 from sim.worlds import Backend, open_game, where_words
@@ -111,7 +112,7 @@ def build(  # noqa: PLR0913 - a Typer verb: a parameter for each option
         opened = open_game(backend, scenario, replace(opening, journal=viewing.publisher.board))
         with opened as (played, display), filmed(played, display, scenario, video) as game:
             env = ArenaEnv(game, scenario)
-            episode = started_over(partial(_built, env, in_hand, steps, viewing, quiet=quiet or as_json))
+            episode = started_over(partial(_built, env, in_hand, steps, viewing, quiet=quiet or as_json), say_aside)
             times = times_of(game)
     built, count, name = len(env.placed & scenario.design), len(episode.actions), episode.material_name(scenario)
     found = Built(

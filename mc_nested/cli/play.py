@@ -1,6 +1,7 @@
 """``mc-nested play``: watch a trained agent build, in the simulator or in a running game."""
 
 from dataclasses import dataclass, replace
+from functools import partial
 from pathlib import Path
 from typing import Annotated
 
@@ -22,13 +23,14 @@ from mc_nested.cli.options import (
 from mc_nested.cli.output import JsonOption, Output, QuietOption, prints
 from mc_nested.cli.runs import greedy_episodes
 from mc_nested.cli.view import Viewed, ViewOption, viewed
-from mc_nested.cli.watching import VideoOption, filmed, started_over, times_of, watched
+from mc_nested.cli.watching import VideoOption, filmed, say_aside, times_of, watched
 from mc_nested.errors import RunError, UserError
 from mc_nested.learn.agents import Agent
 from mc_nested.learn.dqn.engines import SCREEN
 from mc_nested.learn.evaluation import GreedyEpisode, build_greedily, play_greedily
 from mc_nested.learn.runs.run_folder import RunFolder
 from mc_nested.live.devices import Display
+from mc_nested.live.live_game import started_over
 from mc_nested.live.menus.click_points import picture_bytes
 from mc_nested.report.film import check_film
 from sim.worlds import Backend, as_shown, check_window, open_game, where_words
@@ -90,7 +92,8 @@ def play(  # noqa: PLR0913 - a Typer verb: a parameter for each option
         with window as (opened, display), filmed(opened, display, scenario, video) as game:
             pictures = _Screenshots(folder.path / "screenshots", display) if screenshots and display else None
             is_quiet = output.quiet or output.as_json
-            episode = started_over(lambda: _watch(game, folder, agent, which, pictures, viewing, is_quiet=is_quiet))
+            watch = partial(_watch, game, folder, agent, which, pictures, viewing, is_quiet=is_quiet)
+            episode = started_over(watch, say_aside)
             times = times_of(game)
     material = episode.material_name(scenario)
     found = PlayResult(

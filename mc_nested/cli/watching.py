@@ -1,10 +1,10 @@
-"""An episode that a person watches: the arena as it is built, a film of it, and a new start after a mishap."""
+"""An episode that a person watches: the arena as it is built, and a film of it."""
 
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Annotated, TypeVar
+from typing import Annotated
 
 import typer
 from rich.console import Console, Group
@@ -17,7 +17,7 @@ from mc_nested.arena.env import ArenaEnv
 from mc_nested.arena.game import Game
 from mc_nested.arena.scenario import Scenario
 from mc_nested.cli.view import Viewed
-from mc_nested.errors import FilmError, LiveError, NotInFrontError, StoppedError
+from mc_nested.errors import FilmError
 from mc_nested.live.devices import Display
 from mc_nested.live.live_game import LiveGame
 from mc_nested.live.vision.chat_region import blanked_share, without_chat
@@ -37,11 +37,6 @@ HALF = 0.5
 
 STEP_S = 0.25
 """Seconds of a simulated step in a view."""
-
-TRIES = 3
-"""Attempts at an episode: a mishap in the running game may end all but the last."""
-
-Played = TypeVar("Played")
 
 
 def arena_seen(env: ArenaEnv, objective: Cell | None) -> ArenaSeen:
@@ -88,21 +83,9 @@ def times_of(game: Game) -> list[str]:
     return [] if median is None else [f"  {median:.3f} s an action (median); {taken['share']}"]
 
 
-def started_over(episode: Callable[[], Played]) -> Played:
-    """Play the episode and return what it returns; start over after a mishap, and raise the last try's LiveError.
-
-    What a person did on purpose is no mishap: StoppedError and NotInFrontError are raised at once.
-    """
-    for tries_left in reversed(range(TRIES)):
-        try:
-            return episode()
-        except (StoppedError, NotInFrontError):  # noqa: PERF203 - each try may fail
-            raise
-        except LiveError as error:
-            if not tries_left:
-                raise
-            typer.echo(f"  {error}; the episode starts over", err=True)
-    raise AssertionError("the last try returned or raised")
+def say_aside(line: str) -> None:
+    """Show a line beside the episode."""
+    typer.echo(f"  {line}", err=True)
 
 
 @contextmanager
@@ -124,7 +107,7 @@ def filmed(game: Game, display: Display | None, scenario: Scenario, video: Path 
     except FilmError:
         raise
     except BaseException:
-        typer.echo(f"  film of what was played: {video}" if film.is_whole else "  there is no film", err=True)
+        say_aside(f"film of what was played: {video}" if film.is_whole else "there is no film")
         raise
 
 
@@ -136,10 +119,9 @@ def _window_of(game: Game, display: Display) -> Window:
 
     share = blanked_share(display.size(), seen_scale())
     if share > HALF:
-        typer.echo(
-            f"  {share:.0%} of the window is where the chat may be, and stays grey in the film: "
-            "a smaller GUI Scale, or a larger window, shows more",
-            err=True,
+        say_aside(
+            f"{share:.0%} of the window is where the chat may be, and stays grey in the film: "
+            "a smaller GUI Scale, or a larger window, shows more"
         )
 
     def picture() -> Picture:

@@ -2,12 +2,13 @@
 
 from collections.abc import Callable, Collection, Iterable
 from pathlib import Path
+from typing import TypeVar
 
 from mc_nested.arena import rules
 from mc_nested.arena.action import Action, Cell
 from mc_nested.arena.game import Following, Outcome
 from mc_nested.arena.scenario import Scenario
-from mc_nested.errors import LiveError, ProfileError, StoppedError
+from mc_nested.errors import LiveError, NotInFrontError, ProfileError, StoppedError
 from mc_nested.live.action_log import ActionLog
 from mc_nested.live.connection import GameConnection
 from mc_nested.live.journal import Fact
@@ -23,6 +24,30 @@ from mc_nested.live.vision.game_screen import seen_gui_scale
 
 RESET_TRIES = 4
 """Attempts at a reset before its error is raised."""
+
+
+TRIES = 3
+"""Attempts at an episode: a mishap in the running game may end all but the last."""
+
+Played = TypeVar("Played")
+
+
+def started_over(episode: Callable[[], Played], say: Callable[[str], None], tries: int = TRIES) -> Played:
+    """Play the episode and return what it returns; start over after a mishap, and raise the last try's LiveError.
+
+    ``say`` is told of each mishap. What a person did on purpose is none: StoppedError and NotInFrontError are raised at
+    once.
+    """
+    for tries_left in reversed(range(tries)):
+        try:
+            return episode()
+        except (StoppedError, NotInFrontError):  # noqa: PERF203 - each try may fail
+            raise
+        except LiveError as error:
+            if not tries_left:
+                raise
+            say(f"{error}; the episode starts over")
+    raise AssertionError("the last try returned or raised")
 
 
 def check_fits(scenario: Scenario, profile: Profile, profile_name: str | None = None) -> None:

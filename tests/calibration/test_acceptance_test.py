@@ -86,7 +86,7 @@ def test_an_agent_that_is_carried_off_once_starts_over(font: Path) -> None:
     pushed = dataclasses.replace(context, connection=GameConnection(devices, context.controller), say=said.append)
     found = run_acceptance_test(pushed, profile)
     assert found.lines[0] == "8 actions, 4 blocks: each where it should be"
-    assert [line.rpartition("; ")[2] for line in said] == ["the acceptance test starts over once"], said
+    assert [line.rpartition("; ")[2] for line in said] == ["the episode starts over"], said
     assert (client.built, client.window.down) == ({}, set())
 
 

@@ -72,10 +72,8 @@ def test_a_profile_that_can_not_read_the_chat_waits_fixed_times_instead() -> Non
     assert game.clock.now() == pytest.approx(100.0 + 0.05 + 0.3 + 0.05 + 0.7)
 
 
-@pytest.mark.parametrize("profile", [Profile(), BLIND])
-def test_letters_that_come_late_are_typed_after_another_look(profile: Profile) -> None:
-    game = FakeGame(profile)
-    screen = ChatScreen(game)
+def late_chat_in(game: FakeGame, screen: ChatScreen, closes: bool = False) -> Chat:
+    """Return a chat each of whose letters is followed by a stall, in which the chat may close."""
     connection = connection_to(game, screen)
     connection.controller.confirm_screen("world")
     typed = connection.devices.keyboard.type
@@ -83,9 +81,16 @@ def test_letters_that_come_late_are_typed_after_another_look(profile: Profile) -
     def type_and_stall(text: str) -> None:
         typed(text)
         game.clock.sleep_until(game.clock.now() + FRESH_S + 0.01)
+        screen.closed_from_look = 0 if closes else screen.closed_from_look
 
     connection.devices.keyboard.type = type_and_stall  # type: ignore[method-assign]
-    Chat(profile, connection).send(LINE)
+    return Chat(game.profile, connection)
+
+
+@pytest.mark.parametrize("profile", [Profile(), BLIND])
+def test_letters_that_come_late_are_typed_after_another_look(profile: Profile) -> None:
+    game = FakeGame(profile)
+    late_chat_in(game, ChatScreen(game)).send(LINE)
     assert game.commands == [LINE]
     assert game.presses == ["t", "enter"]
 
@@ -93,18 +98,8 @@ def test_letters_that_come_late_are_typed_after_another_look(profile: Profile) -
 def test_a_chat_that_closes_while_a_letter_is_late_gets_no_more_letters() -> None:
     game = FakeGame(Profile())
     screen = ChatScreen(game)
-    connection = connection_to(game, screen)
-    connection.controller.confirm_screen("world")
-    typed = connection.devices.keyboard.type
-
-    def type_and_stall(text: str) -> None:
-        typed(text)
-        game.clock.sleep_until(game.clock.now() + FRESH_S + 0.01)
-        screen.closed_from_look = 0
-
-    connection.devices.keyboard.type = type_and_stall  # type: ignore[method-assign]
     with pytest.raises(NotConfirmedError, match="the chat did not stay open"):
-        Chat(game.profile, connection).send(LINE)
+        late_chat_in(game, screen, closes=True).send(LINE)
     assert screen.seen[-1] == LINE[0]
     assert game.commands == []
 
