@@ -17,6 +17,9 @@ from sim.client.game.world import AIR
 
 START_S = 30.0
 
+RELEASED_S = 5.0
+"""How long a window on a busy machine may take until a frame of its takes a key's release."""
+
 
 class TruthReader:
     """The world as the client says it is (sim/window/rehearsal.py)."""
@@ -37,6 +40,12 @@ class TruthReader:
         """Return where the player is."""
         x, y, z = self.now()["feet"]
         return x, y, z
+
+    def keys_left_down(self) -> list[str]:
+        """Return the keys that stay down, or none once the window has taken every release."""
+        wait_until(lambda: not self.now()["keys_down"], RELEASED_S)
+        down: list[str] = self.now()["keys_down"]
+        return down
 
     def built(self) -> dict[Block, str]:
         """Return every block that differs from the bare floor."""

@@ -53,11 +53,6 @@ class Window:
     profile: Path
     url: str
 
-    def keys_down(self) -> list[str]:
-        """Return the keys that are held down, as the window's client has them."""
-        down: list[str] = self.rehearsal.truth.now()["keys_down"]
-        return down
-
     def is_walking(self) -> bool:
         """Return whether the agent takes a step: an episode has begun, and its reset is over."""
         now = self.rehearsal.truth.now()
@@ -179,7 +174,7 @@ def ends(window: Window, tmp_path: Path) -> Iterator[Ends]:
     try:
         yield both
         assert not any("Traceback" in line for program in both.started for line in program.lines())
-        assert window.keys_down() == []
+        assert window.rehearsal.truth.keys_left_down() == []
     finally:
         for program in both.started:
             program.process.kill()
@@ -204,13 +199,13 @@ def test_a_game_behind_another_window_is_paused_and_loses_its_episode(window: Wi
         game.says("the episode was lost")
         learner.says("pc: ", "its episode is lost")
         game.says("paused: switch to the game to let it go on")
-        assert window.keys_down() == []
+        assert window.rehearsal.truth.keys_left_down() == []
         before = played(game)
     game.says("goes on")
     game.says(f"episode {before + 1}: score")
     assert game.end() == 130
     assert game.lines()[-1] == "mc-nested: stopped: no key is held, and the learner goes on without this game"
-    assert window.keys_down() == []
+    assert window.rehearsal.truth.keys_left_down() == []
     learner.says("pc is gone")
     assert stops_and_saves(learner)
     counted, lost = ends.counted_and_lost()
@@ -230,7 +225,7 @@ def test_the_panic_key_ends_the_game_and_its_learner_waits_for_another(
             game.says("paused: switch to the game to let it go on")
         window.press(F12)
         assert game.process.wait(SOON_S) == 2
-        assert window.keys_down() == []
+        assert window.rehearsal.truth.keys_left_down() == []
     assert game.lines()[-1] == f"mc-nested: {PANIC}"
     learner.says(f"pc: {PANIC}" if paused else f"pc: {PANIC}, its episode is lost")
     learner.says("pc is gone")

@@ -115,7 +115,7 @@ def test_a_policy_learnt_in_the_simulator_builds_its_design(
         assert (facts["monitors"], facts["window"].split(" at ")[0]) == ("1400x1000 at 0 0", facts["size"])
         assert replayed["followed"] == replayed["actions"]
         assert rehearsal.truth.standing(arena) == {arena.block_of(cell): block for cell in scenario.design}
-        assert rehearsal.truth.now()["keys_down"] == []
+        assert rehearsal.truth.keys_left_down() == []
 
 
 @pytest.mark.usefixtures("window_programs")
@@ -130,7 +130,7 @@ def test_the_line_is_learnt_and_built_in_the_window_of_a_current_version(tmp_pat
         arena = load_profile(str(profile)).marked_arena()
         best = max(line.materials, key=lambda material: material.p)
         assert rehearsal.truth.standing(arena) == {arena.block_of(cell): best.block for cell in line.design}
-        assert rehearsal.truth.now()["keys_down"] == []
+        assert rehearsal.truth.keys_left_down() == []
 
 
 @pytest.mark.usefixtures("window_programs")
@@ -148,7 +148,7 @@ def test_a_layer_of_a_schematic_is_built_without_learning_and_the_old_blocks_are
         assert rehearsal.truth.standing(arena) == {arena.block_of(cell): "oak_planks" for cell in scenario.design}
         mc_nested("calibrate", "arena", "--undo", "--profile", profile, env=rehearsal.env)
         assert without_air(rehearsal.truth.built()) == before
-        assert rehearsal.truth.now()["keys_down"] == []
+        assert rehearsal.truth.keys_left_down() == []
 
 
 def without_air(blocks: dict[Block, str]) -> dict[Block, str]:

@@ -111,7 +111,7 @@ def test_a_line_is_built_block_by_block_and_no_key_stays_down(calibrated: Rehear
     arena = calibrated.arena()
     block = scenario.materials[scenario.material_index(said.split(", in ")[1].split(",")[0])].block
     assert calibrated.truth.standing(arena) == {arena.block_of(cell): block for cell in scenario.design}
-    assert calibrated.truth.now()["keys_down"] == []
+    assert calibrated.truth.keys_left_down() == []
 
 
 def test_doctor_with_a_calibrated_profile_passes_profile_font_screen_and_input(calibrated: Rehearsal) -> None:
@@ -137,4 +137,4 @@ def test_game_on_windows_is_served_to_a_learner_on_this_system_over_tls(calibrat
     assert json.loads((run / "summary.json").read_text("utf-8"))["episodes_done"] == [2], said
     assert "pc has joined" in said
     assert "episode 2: score" in said
-    assert calibrated.truth.now()["keys_down"] == []
+    assert calibrated.truth.keys_left_down() == []
