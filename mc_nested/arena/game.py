@@ -12,10 +12,14 @@ from mc_nested.arrays import Arrays
 
 @dataclass(frozen=True)
 class Outcome:
-    """What an action really did: the cell where the agent is now, and the cell where a block landed, if one did."""
+    """What an action really did: the cell where the agent is now, and the cell where a block landed, if one did.
+
+    ``instead`` is the action that a person who has taken over did in place of the one asked for; None if nobody did.
+    """
 
     cell: Cell
     placed: Cell | None
+    instead: Action | None = None
 
 
 Following = tuple[Action, int | None]
