@@ -5,7 +5,7 @@ import importlib
 import importlib.metadata
 import os
 import sys
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from typing import Annotated, Any, cast
 
 import typer
@@ -14,67 +14,62 @@ from typer.core import TyperCommand, TyperGroup
 from mc_nested.cli.completion import COMPLETES, quick_app, typed_words
 from mc_nested.cli.interrupt import INTERRUPTED, Stopped
 from mc_nested.cli.output import epilog_of
-from mc_nested.errors import McNestedError, UserError
+from mc_nested.errors import McNestedError
 from mc_nested.live.input.signals import EndedBySignal
 
 NAME = "mc-nested"
 
-VERBS = (
-    "train",
-    "reproduce",
-    "study",
-    "play",
-    "build",
-    "scenarios",
-    "runs",
-    "view",
-    "calibrate",
-    "profiles",
-    "doctor",
-    "rehearse",
-    "recordings",
-    "replay",
-)
-"""Each is a module of this package; in the order of the help."""
+VERBS = {
+    "demo": "Train the nested agent on the line until it builds all of it, and show that: the first thing to try.",
+    "train": "Train an agent; Ctrl+C saves, and --resume goes on from there.",
+    "reproduce": "Repeat the paper's experiment and test its claims.",
+    "study": "Train and report on one of several studies; Ctrl+C saves, and --resume goes on from there.",
+    "play": "Play one greedy episode and show the arena as it is built; after a mishap the episode starts over.",
+    "build": "Build a design without learning, and show the arena as it is built; after a mishap it starts over.",
+    "scenarios": "List the designs with a drawing, the optimum and the fewest steps; of a schematic its layers, too.",
+    "runs": "List your runs, look at one, evaluate it, rename it, delete it; alone it lists those in runs/.",
+    "view": "Watch a training on this computer as it goes on, or one that has ended, moment by moment.",
+    "calibrate": "Tell the agent where your arena and your buttons are.",
+    "profiles": "List your profiles, look at one, rename it, delete it; alone it lists them.",
+    "doctor": "Look at this computer, the game's window and its options: each row with the one thing to do.",
+    "rehearse": "Open a window that looks and acts like the game, to calibrate and train in without Minecraft; "
+    "close it to end.",
+    "recordings": "List the recordings that are kept; verify, trim and cut them.",
+    "replay": "Read and decide again what a recording holds: exit code 0 if all is as it was, 1 if anything differs.",
+}
+"""Each is a module of this package, with the line that its help begins with; in the order of the help."""
 
 HIDDEN = {"read": "doctor"}
 """Verbs that have a name of their own, too, outside the help: the verb that has them."""
 
-MOVED = {
-    "evaluate": "runs evaluate",
-    "serve-game": "train serve",
-    "cluster-keys": "train keys",
-    "bug-report": "doctor bug-report",
-    "sweep": "study sweep, or study ablation for sweep --ablation",
-    "benchmark": "study benchmark",
-    "cooperate": "train, with --builders",
-}
-"""What a verb of an earlier version is called now."""
-
 
 def app_for(words: Sequence[str]) -> TyperCommand | TyperGroup:
-    """Return the command with the verb that the words begin with, or with all verbs if they begin with none.
-
-    A verb's module is loaded only if it is needed: together they take seconds and hundreds of megabytes. Raise
-    UserError for a verb's former name.
-    """
+    """Return the command for these words, or for the words that a shell asks to complete."""
     if COMPLETES in os.environ:
         if quick := quick_app(VERBS):
             return cast("TyperCommand", typer.main.get_command(quick))
         words = typed_words()
-    if words and words[0] in MOVED:
-        raise UserError(f"{words[0]} is now {NAME} {MOVED[words[0]]}")
+    return app_with([word for word in words if not word.startswith("-")][:1])
+
+
+def app_with(loaded: Collection[str]) -> TyperGroup:
+    """Return the command with all verbs. Those that aren't ``loaded`` can only be listed.
+
+    A verb's module is loaded only if it is needed: together they take seconds and hundreds of megabytes.
+    """
     app = typer.Typer(name=NAME, rich_markup_mode=None, pretty_exceptions_enable=False)
     app.callback(invoke_without_command=True)(version)
-    named = words[:1] if words and words[0] in (*VERBS, *HIDDEN) else [*VERBS, *HIDDEN]
-    for verb in named:
+    for verb in (*VERBS, *HIDDEN):
+        if verb not in loaded:
+            app.command(verb, help=VERBS.get(verb), hidden=verb in HIDDEN)(lambda: None)
+            continue
         module = importlib.import_module(f"mc_nested.cli.{HIDDEN.get(verb, verb)}")
         if verb not in HIDDEN and hasattr(module, "app"):  # verbs of its own
             app.add_typer(module.app, name=verb)
         else:
             app.command(verb, hidden=verb in HIDDEN)(getattr(module, verb))
     command = cast("TyperGroup", typer.main.get_command(app))
-    command.commands = {verb: command.commands[verb] for verb in named}  # Typer puts those with verbs of their own last
+    command.commands = {verb: command.commands[verb] for verb in (*VERBS, *HIDDEN)}  # Typer puts groups last
     _end_help_with_json_fields(command)
     return command
 

@@ -6,13 +6,13 @@ import typer
 from typer.cli import get_docs_for_click
 
 from mc_nested import errors
-from mc_nested.cli.app import app_for
+from mc_nested.cli.app import HIDDEN, VERBS, app_with
 from scripts.documentation.markdown_text import code, of_docstring, table
 
 
 def command_line() -> str:
     """Describe every verb, argument and option, as Typer does it."""
-    command = app_for(())
+    command = app_with({**VERBS, **HIDDEN})
     _tell_whole_summaries(command)
     return get_docs_for_click(obj=command, ctx=typer.Context(command), name="mc-nested", indent=1)
 

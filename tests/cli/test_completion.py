@@ -12,7 +12,7 @@ import platformdirs
 import pytest
 import typer
 
-from mc_nested.cli.app import VERBS, app_for
+from mc_nested.cli.app import HIDDEN, VERBS, app_with
 from mc_nested.cli.completion import QUICK, complete_of, complete_profiles, complete_runs
 from tests.cli.running import run, verbs_of
 
@@ -175,7 +175,7 @@ def test_options_that_complete_runs_or_profiles_are_those_of_the_quick_table(
     monkeypatch.chdir(folder)
     monkeypatch.setenv("XDG_CONFIG_HOME", str(folder))
     found = set()
-    for words, command in verbs_of(app_for(["--help"])):
+    for words, command in verbs_of(app_with({**VERBS, **HIDDEN})):
         for each in command.params:
             values = {item.value for item in each.shell_complete(typer.Context(command), "")}
             if values & {"runs/line", "laptop"}:

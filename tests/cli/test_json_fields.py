@@ -10,7 +10,7 @@ import platformdirs
 import pytest
 
 from mc_nested.cli import profiles
-from mc_nested.cli.app import app_for
+from mc_nested.cli.app import HIDDEN, VERBS, app_with
 from mc_nested.cli.output import epilog_of, json_fields
 from mc_nested.live.profile.folder import profile_folder
 from mc_nested.live.profile.store import save_profile
@@ -21,17 +21,17 @@ from sim.client.drawing.letters import drawn_atlas
 from sim.client.game.f3_screen import F3Screen
 from tests.cli.running import run, verbs_of
 
-VERBS = dict(verbs_of(app_for(["--help"])))
+COMMANDS = dict(verbs_of(app_with({**VERBS, **HIDDEN})))
 
 
 def fields_of(verb: str) -> dict[str, str]:
-    return json_fields(VERBS[verb].callback)
+    return json_fields(COMMANDS[verb].callback)
 
 
 def test_every_verb_with_json_declares_its_fields() -> None:
-    has_json = {verb for verb, each in VERBS.items() if any("--json" in option.opts for option in each.params)}
+    has_json = {verb for verb, each in COMMANDS.items() if any("--json" in option.opts for option in each.params)}
     lists = {"runs", "profiles", "recordings"}
-    assert {verb for verb in VERBS if fields_of(verb)} == has_json - lists
+    assert {verb for verb in COMMANDS if fields_of(verb)} == has_json - lists
     assert {f"{verb} list" for verb in lists} < has_json
 
 
@@ -39,7 +39,7 @@ def test_help_ends_with_the_fields(capsys: pytest.CaptureFixture[str]) -> None:
     assert run("runs", "evaluate", "--help") == 0
     shown = " ".join(capsys.readouterr().out.split())
     assert shown.endswith("materials: that each trial chose; steps: that each trial took.")
-    assert epilog_of(VERBS["rehearse"].callback) is None
+    assert epilog_of(COMMANDS["rehearse"].callback) is None
 
 
 def printed(capsys: pytest.CaptureFixture[str], *words: str | Path) -> dict[str, Any]:

@@ -281,8 +281,6 @@ def test_full_disk_at_the_end_is_reported_in_one_line_and_costs_no_file(
         (["reproduce", "--resume", "DONE", "--out", "NEW"], "leave out --out"),
         (["study", "sweep", "--out", "NEW", "--trials", "0"], "'--trials'"),
         (["study", "sweep", "--resume", "DONE"], "the folder of mc-nested reproduce, not of study sweep"),
-        (["sweep", "--out", "NEW"], "sweep is now mc-nested study sweep, or study ablation for sweep --ablation"),
-        (["benchmark"], "benchmark is now mc-nested study benchmark"),
     ],
 )
 def test_mistake_is_refused_in_one_line_with_exit_code_2(

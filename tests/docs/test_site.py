@@ -14,7 +14,7 @@ from urllib.parse import unquote, urldefrag
 import pytest
 from typer.core import TyperCommand, TyperGroup, TyperOption
 
-from mc_nested.cli.app import app_for
+from mc_nested.cli.app import HIDDEN, VERBS, app_with
 from scripts.test import ALL
 from tests.docs.pages import ROOT, pages
 
@@ -118,7 +118,7 @@ def test_every_option_of_every_verb_is_in_the_reference(site: Path) -> None:
     sections = dict(re.findall(r'<h[2-4] id="([^"]+)">.*?</h[2-4]>(.*?)(?=<h[2-4]|</article>)', page, re.DOTALL))
     missing = [
         f"{words} {name}"
-        for words, command in verbs_below("mc-nested", app_for(()))
+        for words, command in verbs_below("mc-nested", app_with({**VERBS, **HIDDEN}))
         for each in command.params
         if isinstance(each, TyperOption) and not each.hidden
         for name in each.opts
