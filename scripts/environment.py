@@ -1,6 +1,6 @@
 """The project's own environment: .venv beside pyproject.toml, made and updated by the other scripts.
 
-Needs nothing but Python 3.10 or newer. Versions come from constraints.txt.
+Needs nothing but Python 3.10 to 3.14. Versions come from constraints.txt.
 """
 
 import hashlib
@@ -19,7 +19,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parent.parent
 ENVIRONMENT = ROOT / ".venv"
 STAMP = ENVIRONMENT / "installed"
-OLDEST_PYTHON = (3, 10)
+OLDEST_PYTHON, NEWEST_PYTHON = (3, 10), (3, 14)
 ENDS_WITHIN_S = 20.0
 """Seconds for a command to end by itself, after the terminal's Ctrl+C, before it is asked, and asked more firmly."""
 
@@ -27,7 +27,9 @@ ENDS_WITHIN_S = 20.0
 def main_python(extras: Sequence[str] = ()) -> Path:
     """Return the environment's Python, with the project and extras installed; exit with one line if that fails."""
     if sys.version_info < OLDEST_PYTHON:
-        sys.exit(f"Python {sys.version.split()[0]} is too old: run this with Python 3.10 or newer")
+        sys.exit(f"Python {sys.version.split()[0]} is too old: run this with Python 3.10 to 3.14")
+    if sys.version_info[:2] > NEWEST_PYTHON:
+        sys.exit(f"Python {sys.version.split()[0]} is too new for numba and torch: run this with Python 3.10 to 3.14")
     python = ENVIRONMENT / ("Scripts/python.exe" if sys.platform == "win32" else "bin/python")
     if not python.exists():
         _make_environment()

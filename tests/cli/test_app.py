@@ -11,11 +11,14 @@ import typer
 
 from mc_nested.cli import app as app_module
 from mc_nested.cli import scenarios
-from mc_nested.cli.app import HIDDEN, MOVED, VERBS, app_for, main
+from mc_nested.cli.app import HIDDEN, VERBS, app_for, app_with, main
 from mc_nested.cli.interrupt import Stopped
 from mc_nested.errors import PresetError
 from mc_nested.live.input.signals import EndedBySignal
 from tests.cli.running import run
+
+
+HEAVY = ("torch", "numba", "cv2", "matplotlib", "scipy")
 
 
 def commands_of(*words: str) -> dict[str, Any]:
@@ -24,17 +27,33 @@ def commands_of(*words: str) -> dict[str, Any]:
 
 
 def test_only_the_verb_that_is_named_is_loaded() -> None:
-    assert list(commands_of("scenarios", "line")) == ["scenarios"]
-    assert list(commands_of("--help")) == [*VERBS, *HIDDEN]
-    assert [verb for verb, each in commands_of("--help").items() if each.hidden] == list(HIDDEN)
+    commands = commands_of("scenarios", "line")
+    assert list(commands) == [*VERBS, *HIDDEN]
+    assert [verb for verb, each in commands.items() if each.params] == ["scenarios"]
+    assert [verb for verb, each in commands_of("--help").items() if each.params] == []
+    assert [verb for verb, each in commands.items() if each.hidden] == list(HIDDEN)
 
 
-@pytest.mark.parametrize("verb", MOVED)
-def test_former_verb_name_is_refused_with_its_new_name(verb: str, capsys: pytest.CaptureFixture[str]) -> None:
-    assert run(verb, "--help") == 2
-    assert capsys.readouterr().err == f"mc-nested: {verb} is now mc-nested {MOVED[verb]}\n"
-    words = [word for word in MOVED[verb].partition(",")[0].split() if not word.startswith("--")]
-    assert run(*words, "--help") == 0
+def test_listed_lines_are_those_of_the_verbs_themselves() -> None:
+    listed, loaded = commands_of("--help"), app_with({**VERBS, **HIDDEN}).commands
+    whole = 1000
+    assert [VERBS[verb] for verb in VERBS] == [loaded[verb].get_short_help_str(whole) for verb in VERBS]
+    assert [listed[verb].get_short_help_str() for verb in VERBS] == [
+        loaded[verb].get_short_help_str() for verb in VERBS
+    ]
+
+
+@pytest.mark.parametrize("words", [["--help"], ["--version"], []])
+def test_help_and_version_load_nothing_that_takes_long(words: list[str]) -> None:
+    code = f"""
+import atexit, sys
+atexit.register(lambda: print([name for name in {HEAVY} if name in sys.modules], file=sys.stderr))
+from mc_nested.cli import main
+main({words})
+"""
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stderr == "[]\n"
+    assert "mc-nested" in done.stdout
 
 
 @pytest.mark.parametrize(
