@@ -10,6 +10,7 @@ TOGETHER = {
     "tests/windows/": "a Wine desktop, whose folder no second one may use",
     "tests/test_games_end_to_end.py": "a window with its arena",
     "tests/live/desktop/test_xwayland.py": "Wayland desktops",
+    "tests/test_installers.py": "a folder of packages",
     "tests/test_wheel.py": "an environment with everything that the wheel needs",
     "tests/docs/test_site.py": "the built site",
     "tests/cli/test_reproduce.py": "whole reproductions",

@@ -17,7 +17,6 @@ from mc_nested.errors import PresetError
 from mc_nested.live.input.signals import EndedBySignal
 from tests.cli.running import run
 
-
 HEAVY = ("torch", "numba", "cv2", "matplotlib", "scipy")
 
 

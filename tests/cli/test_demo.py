@@ -18,5 +18,7 @@ def test_demo_trains_on_the_line_and_shows_what_was_built(
     assert folder.name.startswith("demo-")
     assert (folder / "curve.png").exists()
     printed = capsys.readouterr().out
-    assert printed.index("Training the nested agent") < printed.index("curve.png") < printed.index("the agent   #  built")
+    assert (
+        printed.index("Training the nested agent") < printed.index("curve.png") < printed.index("the agent   #  built")
+    )
     assert "of 21, in" in printed

@@ -57,3 +57,12 @@ def test_the_torch_engine_says_that_torch_is_missing(tmp_path: Path) -> None:
     assert asked.stderr.count("\n") == 1
     assert "torch is missing: install torch, or take --engine compiled" in asked.stderr
     assert not (tmp_path / "run").exists()
+
+
+def test_a_torch_that_cannot_be_loaded_is_named_with_its_reason(tmp_path: Path) -> None:
+    (tmp_path / "torch.py").write_text('raise OSError("no c10.dll")', "utf-8")
+    code = f"import sys; sys.path.insert(0, {str(tmp_path)!r}); from mc_nested.cli.app import main; main(sys.argv[1:])"
+    asked = without_torch(code, "train", "--engine", "torch", "--episodes", "3", "--out", tmp_path / "run")
+    assert asked.returncode == 2
+    assert asked.stderr.count("\n") == 1
+    assert "torch can't be loaded, no c10.dll: reinstall it, or take --engine compiled" in asked.stderr

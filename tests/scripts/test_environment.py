@@ -20,7 +20,3 @@ def test_python_too_old_or_too_new_is_refused(
     with pytest.raises(SystemExit, match=says):
         environment.main_python()
     assert not (tmp_path / "venv").exists()
-
-
-def test_oldest_and_newest_python_are_those_of_the_package() -> None:
-    (oldest, _), (newest, after) = environment.OLDEST_PYTHON[::-1], environment.NEWEST_PYTHON

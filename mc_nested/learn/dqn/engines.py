@@ -39,7 +39,9 @@ def made_engine(
     except ModuleNotFoundError as error:
         raise PresetError('engine "torch": torch is missing: install torch, or take --engine compiled') from error
     except (ImportError, OSError) as error:  # a part of it, as of another computer's, isn't there
-        raise PresetError(f'engine "torch": torch can\'t be loaded, {error}: reinstall it, or take --engine compiled') from error
+        raise PresetError(
+            f'engine "torch": torch can\'t be loaded, {error}: reinstall it, or take --engine compiled'
+        ) from error
     device = engine.device_named(choice.device)
     shape = networks.input_shape(states)
     form = networks.form_of(choice.network, shape, choice.hidden, states.actions)
