@@ -51,6 +51,9 @@ AS_THEY_ARE = ("mc-nested study benchmark --corpus",)
 BY_THE_SUITE = {
     "dask scheduler": "tests/workers/cluster, which start one, with keys and without",
     "dask worker": "tests/workers/cluster",
+    "uv ": "tests/test_installers.py",
+    "pipx ": "tests/test_installers.py",
+    "pytest tests/test_installers.py": "tests/test_installers.py",
     "mc-nested reproduce --cluster": "tests/cli/test_cluster.py",
     "mc-nested train serve": "tests/cli/test_games_training.py",
     "mc-nested study sweep --cluster": "tests/cli/test_cluster.py",
