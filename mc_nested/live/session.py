@@ -1,7 +1,7 @@
 """Open a live game: its window, the connection to it, and the Game that is played there, from one value, an Opening."""
 
 from collections.abc import Callable, Iterator
-from contextlib import AbstractContextManager, contextmanager, nullcontext
+from contextlib import AbstractContextManager, ExitStack, contextmanager, nullcontext
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -12,10 +12,10 @@ from mc_nested.arena.scenario_file import table_of
 from mc_nested.errors import RecordingError
 from mc_nested.live.connection import GameConnection, prepare_keyboard
 from mc_nested.live.desktop import open_desktop
-from mc_nested.live.desktop.panic import open_panic_switch
+from mc_nested.live.desktop.panic import open_panic_switch, open_takeover_key
 from mc_nested.live.devices import SWITCH_KEYS, Devices, Display
 from mc_nested.live.input.input_controller import InputController
-from mc_nested.live.input.stops import Stop, watched
+from mc_nested.live.input.stops import Stop, Switch, watched
 from mc_nested.live.journal import Journal, Journals
 from mc_nested.live.live_game import LiveGame, check_fits
 from mc_nested.live.menus.click_points import load_click_points
@@ -51,6 +51,9 @@ class Opening:
         evidence: the folder for the last frames of a game that was given up.
         open_devices: opens the window whose title matches.
         open_panic_switch: opens the panic switch of the key that a profile names.
+        open_takeover_key: has that key of a profile switch over between agent and player.
+        offer_takeover: has something else do so, too, as a view; None where nobody may take over.
+        is_stopped: whether somebody asked the run to stop.
 
     Raises:
         RecordingError: the recording's folder holds something already.
@@ -65,6 +68,9 @@ class Opening:
     evidence: Path | None = None
     open_devices: Callable[[str], AbstractContextManager[Devices]] = open_desktop
     open_panic_switch: Callable[[str, Stop], AbstractContextManager[None]] = open_panic_switch
+    open_takeover_key: Callable[[str, Switch], AbstractContextManager[None]] = open_takeover_key
+    offer_takeover: Callable[[Switch], AbstractContextManager[None]] | None = None
+    is_stopped: Callable[[], bool] = lambda: False
 
     def __post_init__(self) -> None:
         folder = self._recordings_folder
@@ -89,7 +95,8 @@ class Opening:
             devices = recorder.devices(window) if recorder else window
             if line := later_version_line(game_in(devices.display.title(), profile.game).version):
                 self.say(line)
-            controller = InputController(devices, profile.input)
+            on_hands = {"on_hands": recorder.hands} if recorder else {}
+            controller = InputController(devices, profile.input, **on_hands)
             connection = GameConnection(
                 devices,
                 controller,
@@ -101,7 +108,12 @@ class Opening:
 
             @contextmanager
             def guarded() -> Iterator[None]:
-                with watched(controller), self.open_panic_switch(profile.keys.panic, stop):
+                with ExitStack() as guards:
+                    guards.enter_context(watched(controller))
+                    guards.enter_context(self.open_panic_switch(profile.keys.panic, stop))
+                    if self.offer_takeover is not None:
+                        guards.enter_context(self.open_takeover_key(profile.keys.takeover, controller.switch_over))
+                        guards.enter_context(self.offer_takeover(controller.switch_over))
                     yield
 
             yield connection, guarded
@@ -154,7 +166,17 @@ def open_live_game(scenario: Scenario, opening: Opening) -> Iterator[tuple[LiveG
         check_hotbar(connection, points)
         check_fit(profile.calibrated, fingerprint_of(display, connection.screen.seen_scales()), opening.profile)
         check_block_is_named(reading, game_in(display.title(), profile.game).version)
-        game = LiveGame(scenario, profile, connection, points=points, evidence=opening.evidence)
+        if opening.offer_takeover is not None:
+            say(f"To take over, and to give back, press {profile.keys.takeover}.")
+        game = LiveGame(
+            scenario,
+            profile,
+            connection,
+            points=points,
+            evidence=opening.evidence,
+            say=say,
+            is_stopped=opening.is_stopped,
+        )
         with game, guarded():
             yield game, display
 

@@ -13,6 +13,9 @@ from mc_nested.live.model.timing import KEY_LOOK_S
 Stop = Callable[[str], None]
 """Releases everything, and lets nothing be pressed again; takes the reason. Callable from any thread."""
 
+Switch = Callable[[], None]
+"""Lets a player take over, or give back. Callable from any thread."""
+
 KEY_REASON = "the panic key was pressed"
 CORNER_REASON = "the mouse was moved into a corner of the screen"
 
