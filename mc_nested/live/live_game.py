@@ -12,6 +12,7 @@ from mc_nested.arena.scenario import Scenario
 from mc_nested.errors import LiveError, NotInFrontError, ProfileError, StoppedError, TakenOverError
 from mc_nested.live.action_log import ActionLog
 from mc_nested.live.connection import GameConnection
+from mc_nested.live.input.stops import Takeover
 from mc_nested.live.journal import Fact
 from mc_nested.live.menus.chat import Chat
 from mc_nested.live.menus.click_points import ClickPoints
@@ -90,8 +91,7 @@ class LiveGame:
         evidence: the folder for the last frames, written when a reset fails for good.
         restore: makes a world's folder the same as its template, for games without commands.
         overlaps: whether the next action's walk begins before an action is confirmed, where the next one is known.
-        say: shows one line to a player who has taken over.
-        is_stopped: whether somebody asked the run to stop; then nobody waits for such a player.
+        takeover: how the run lets a player take over; the controller is what switches over.
 
     Raises:
         ProfileError: the profile has no arena, or ``check_fits`` refuses it.
@@ -110,8 +110,7 @@ class LiveGame:
         evidence: Path | None = None,
         restore: Callable[[Path, Path], None] = restore_world,
         overlaps: bool = True,
-        say: Callable[[str], None] = lambda _: None,
-        is_stopped: Callable[[], bool] = lambda: False,
+        takeover: Takeover | None = None,
     ) -> None:
         check_fits(scenario, profile)
         self._scenario = scenario
@@ -122,8 +121,9 @@ class LiveGame:
         self._clock = connection.devices.clock
         self._journal = connection.journal
         self._body = Body(profile, connection)
-        self._person = Person(profile, connection, scenario.size, say, is_stopped)
-        self._say = say
+        takeover = takeover or Takeover()
+        self._person = Person(profile, connection, scenario.size, takeover)
+        self._say = takeover.say
         self._chat = Chat(profile, connection)
         self._recovery = Recovery(profile, connection, points)
         self._last_frames = LastFrames(connection.devices.display, evidence, lambda: seen_gui_scale(connection.screen))
@@ -297,7 +297,7 @@ class LiveGame:
                 if outcome is not None:
                     return outcome
                 self._stand_again(cell)
-            except TakenOverError:
+            except TakenOverError:  # noqa: PERF203 - each try may be interrupted
                 self._person.check_running()
                 self._body.forget()
 

@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager, ExitStack, contextmanager, nullcontext
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import tomlkit
@@ -15,7 +15,7 @@ from mc_nested.live.desktop import open_desktop
 from mc_nested.live.desktop.panic import open_panic_switch, open_takeover_key
 from mc_nested.live.devices import SWITCH_KEYS, Devices, Display
 from mc_nested.live.input.input_controller import InputController
-from mc_nested.live.input.stops import Stop, Switch, watched
+from mc_nested.live.input.stops import Stop, Switch, Takeover, watched
 from mc_nested.live.journal import Journal, Journals
 from mc_nested.live.live_game import LiveGame, check_fits
 from mc_nested.live.menus.click_points import load_click_points
@@ -52,8 +52,7 @@ class Opening:
         open_devices: opens the window whose title matches.
         open_panic_switch: opens the panic switch of the key that a profile names.
         open_takeover_key: has that key of a profile switch over between agent and player.
-        offer_takeover: has something else do so, too, as a view; None where nobody may take over.
-        is_stopped: whether somebody asked the run to stop.
+        takeover: how a player may take over; None where nobody may.
 
     Raises:
         RecordingError: the recording's folder holds something already.
@@ -69,8 +68,7 @@ class Opening:
     open_devices: Callable[[str], AbstractContextManager[Devices]] = open_desktop
     open_panic_switch: Callable[[str, Stop], AbstractContextManager[None]] = open_panic_switch
     open_takeover_key: Callable[[str, Switch], AbstractContextManager[None]] = open_takeover_key
-    offer_takeover: Callable[[Switch], AbstractContextManager[None]] | None = None
-    is_stopped: Callable[[], bool] = lambda: False
+    takeover: Takeover | None = None
 
     def __post_init__(self) -> None:
         folder = self._recordings_folder
@@ -95,8 +93,7 @@ class Opening:
             devices = recorder.devices(window) if recorder else window
             if line := later_version_line(game_in(devices.display.title(), profile.game).version):
                 self.say(line)
-            on_hands = {"on_hands": recorder.hands} if recorder else {}
-            controller = InputController(devices, profile.input, **on_hands)
+            controller = InputController(devices, profile.input, *([recorder.hands] if recorder else []))
             connection = GameConnection(
                 devices,
                 controller,
@@ -111,9 +108,9 @@ class Opening:
                 with ExitStack() as guards:
                     guards.enter_context(watched(controller))
                     guards.enter_context(self.open_panic_switch(profile.keys.panic, stop))
-                    if self.offer_takeover is not None:
+                    if self.takeover is not None:
                         guards.enter_context(self.open_takeover_key(profile.keys.takeover, controller.switch_over))
-                        guards.enter_context(self.offer_takeover(controller.switch_over))
+                        guards.enter_context(self.takeover.offer(controller.switch_over))
                     yield
 
             yield connection, guarded
@@ -166,7 +163,7 @@ def open_live_game(scenario: Scenario, opening: Opening) -> Iterator[tuple[LiveG
         check_hotbar(connection, points)
         check_fit(profile.calibrated, fingerprint_of(display, connection.screen.seen_scales()), opening.profile)
         check_block_is_named(reading, game_in(display.title(), profile.game).version)
-        if opening.offer_takeover is not None:
+        if opening.takeover is not None:
             say(f"To take over, and to give back, press {profile.keys.takeover}.")
         game = LiveGame(
             scenario,
@@ -174,8 +171,7 @@ def open_live_game(scenario: Scenario, opening: Opening) -> Iterator[tuple[LiveG
             connection,
             points=points,
             evidence=opening.evidence,
-            say=say,
-            is_stopped=opening.is_stopped,
+            takeover=replace(opening.takeover or Takeover(), say=say),
         )
         with game, guarded():
             yield game, display

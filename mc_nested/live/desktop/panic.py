@@ -1,7 +1,7 @@
 """The real panic switch and takeover key: threads that notice a key, and the mouse in a corner, in any window.
 
-The panic key stops always. The corner stops while the mouse is free, as in menus and other windows: in its world the game
-holds the mouse in the middle of its window, and a push only turns the view (FACTS: Keys).
+The panic key stops always. The corner stops while the mouse is free, as in menus and other windows: in its world the
+game holds the mouse in the middle of its window, and a push only turns the view (FACTS: Keys).
 """
 
 import math

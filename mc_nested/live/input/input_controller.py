@@ -67,8 +67,8 @@ class InputController:
     As a context manager it also releases when the block, or the process, ends.
 
     Raises (every press and every wait): NotInFrontError if another window is in front, or comes to the front;
-    StoppedError once it was stopped; TakenOverError while the player has the game. A press also: WrongScreenError if the screen that it is meant for was not just
-    confirmed. Everything held is released then.
+    StoppedError once it was stopped; TakenOverError while the player has the game. A press also: WrongScreenError if
+    the screen that it is meant for was not just confirmed. Everything held is released then.
 
     Args:
         devices: what is pressed, and the window that it is pressed in.

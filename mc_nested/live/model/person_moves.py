@@ -7,7 +7,7 @@ place that the agent can't walk to.
 import math
 from collections.abc import Collection, Mapping, Sequence
 
-from mc_nested.arena.action import Cell
+from mc_nested.arena.action import Action, Cell
 from mc_nested.arena.builder import way_to
 from mc_nested.arena.game import Outcome
 from mc_nested.arena.rules import WITH_BLOCK, front_of, is_inside, moved
@@ -28,7 +28,7 @@ def outcomes_of(walk: Sequence[Cell], block: Cell | None, built: Collection[Cell
         built: the cells that held a block before.
         size: the arena's.
     """
-    outcomes: list[Outcome] = []
+    done: list[tuple[Cell, Action]] = []
     cell = walk[0]
     for goal in walk[1:] or ([cell] if block else []):
         try:
@@ -37,8 +37,10 @@ def outcomes_of(walk: Sequence[Cell], block: Cell | None, built: Collection[Cell
             raise LiveError(f"you are at {goal}, where nobody can walk from {cell}: stay on the floor") from None
         for action in way:
             cell = moved(cell, action, built, size)
-            outcomes.append(Outcome(cell, None, action))
-    if block is not None and (action := outcomes[-1].instead) is not None:
+            done.append((cell, action))
+    outcomes = [Outcome(cell, None, action) for cell, action in done]
+    if block is not None:
+        cell, action = done[-1]
         outcomes[-1] = Outcome(cell, block, WITH_BLOCK[action])
     return outcomes
 

@@ -7,13 +7,14 @@ pressed here.
 """
 
 from collections import deque
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 
 from mc_nested.arena.action import Cell
 from mc_nested.arena.game import Outcome
 from mc_nested.arena.rules import is_inside
 from mc_nested.errors import LiveError, TakenOverError
 from mc_nested.live.connection import GameConnection
+from mc_nested.live.input.stops import Takeover
 from mc_nested.live.model.coordinates import cell_at
 from mc_nested.live.model.person_moves import broken, cell_of, new_block, outcomes_of, placed_from
 from mc_nested.live.model.reading import Reading, Target, WorldPose
@@ -37,18 +38,10 @@ class Person:
         profile: where the arena is.
         connection: the running game.
         size: the number of cells along each side of the scenario's arena.
-        say: shows one line to the player.
-        is_stopped: whether somebody asked the run to stop: then nobody waits for the player.
+        takeover: how the run lets them.
     """
 
-    def __init__(
-        self,
-        profile: Profile,
-        connection: GameConnection,
-        size: int,
-        say: Callable[[str], None],
-        is_stopped: Callable[[], bool],
-    ) -> None:
+    def __init__(self, profile: Profile, connection: GameConnection, size: int, takeover: Takeover) -> None:
         self._arena, self._size = profile.marked_arena(), size
         self._frame = PoseFrame.of_arena(profile)
         self._must_look_ahead = profile.world is not None
@@ -56,8 +49,7 @@ class Person:
         self._screen, self._display = connection.screen, connection.devices.display
         self._clock, self._controller = connection.devices.clock, connection.controller
         self._journal = connection.journal
-        self._say, self._is_stopped = say, is_stopped
-        self._said = ""
+        self._takeover, self._said = takeover, ""
         self.forget()
 
     def forget(self) -> None:
@@ -94,7 +86,7 @@ class Person:
     def check_running(self) -> None:
         """Raise StoppedError after a panic, TakenOverError where the run shall stop."""
         self._controller.check_stopped()
-        if self._is_stopped():
+        if self._takeover.is_stopped():
             raise TakenOverError("the run was stopped while the player had the game")
 
     def _look(self, built: Mapping[Cell, str], shown_id: str) -> None:
@@ -150,5 +142,5 @@ class Person:
 
     def _say_once(self, line: str) -> None:
         if line != self._said:
-            self._say(line)
+            self._takeover.say(line)
         self._said = line
