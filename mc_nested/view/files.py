@@ -3,9 +3,9 @@
 A run's status: now.json is its status now, history.jsonl its earlier ones, coarser the longer it lasts. A reader sees
 either the old status or the new one, never a half. A scrubber is at one moment of the history.
 
-What a person asks of a run through a view: pause, stop, taking over, the answer to a question. Each is a file of its own, so no
-request can overwrite another, whatever several views ask at once. A pause lasts while somebody looks: a view that wants
-it renews its file, and one that nobody renews is over.
+What a person asks of a run through a view: pause, stop, taking over, the answer to a question. Each is a file of its
+own, so no request can overwrite another, whatever several views ask at once. A pause lasts while somebody looks: a view
+that wants it renews its file, and one that nobody renews is over.
 """
 
 import contextlib

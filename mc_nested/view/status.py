@@ -19,8 +19,8 @@ MOST_LINES = 8
 """Lines that the run said, the latest ones."""
 
 Mood = Literal["works", "plays", "player", "waits", "fails"]
-"""Whether the run goes on, does something in a running game that takes seconds, leaves it to a player who has taken over,
-waits, or was set back."""
+"""Whether the run goes on, does something in a running game that takes seconds, leaves that to a player who has taken
+over, waits, or was set back."""
 
 Size = Annotated[int, Field(ge=1, le=32)]
 
@@ -110,8 +110,8 @@ class Status(BaseModel):
     """A run at one moment. Times are seconds since 1970; ``since`` is when it began what it does now.
 
     ``question`` waits for an answer of a person, by its number; ``can_pause``: it pauses when it is asked to;
-    ``pausing``: it does so after what is under way; ``can_take_over``: a player may take over; ``share`` says where the actions' time went; ``ended`` how the run
-    ended.
+    ``pausing``: it does so after what is under way; ``can_take_over``: a player may take over; ``share`` says where the
+    actions' time went; ``ended`` how the run ended.
     """
 
     model_config = ConfigDict(frozen=True, ser_json_inf_nan="constants")

@@ -9,6 +9,7 @@ from mc_nested.arena.builder import build, way_to
 from mc_nested.arena.rules import PLACES, WITH_BLOCK, axis_of, front_of, is_inside, landing, moved
 from mc_nested.arena.scenario import Scenario
 from mc_nested.errors import ScenarioError
+from mc_nested.live.devices import Button
 from mc_nested.live.model.coordinates import cell_at
 from mc_nested.live.model.kinematics import TICK_S, plan_hold
 from mc_nested.live.profile.arena import Arena
@@ -57,6 +58,13 @@ class Hands:
                 placed.add(block)
                 yield from self.click()
 
+    def settle(self) -> Script:
+        """Wait until the player stands still, then walk to the middle of the cell."""
+        yield REST_S
+        cell = self.cell
+        yield from self.walk_to(cell, Action.F)
+        yield from self.walk_to(cell, Action.L)
+
     def walk_to(self, cell: Cell, action: Action) -> Script:
         """Hold keys until the player stands in the middle of a cell, along the axis of a move."""
         axis = axis_of(action)[0]
@@ -78,9 +86,8 @@ class Hands:
         """Press a key for a moment."""
         yield from self.hold(1, key)
 
-    def click(self, button: str = "right") -> Script:
+    def click(self, button: Button = "right") -> Script:
         """Click, as to place a block."""
-        assert button in ("right", "left")
         self._client.pointer.press(button)
         yield CLICK_S
         self._client.pointer.release(button)
@@ -113,7 +120,7 @@ def clumsy(scenario: Scenario, seed: int, needless: float = 0.2, wrong: int = 2)
     for _ in range(TRIES):
         try:
             return _clumsy(scenario, rng, needless, wrong)
-        except ScenarioError:  # a wrong block is in the way
+        except ScenarioError:  # noqa: PERF203 - a wrong block is in the way
             continue
     raise AssertionError("each time a wrong block was in the way")
 

@@ -4,7 +4,6 @@ What no action can say raises LiveError, one line: a block of another kind or el
 place that the agent can't walk to.
 """
 
-import math
 from collections.abc import Collection, Mapping, Sequence
 
 from mc_nested.arena.action import Action, Cell
@@ -12,9 +11,6 @@ from mc_nested.arena.builder import way_to
 from mc_nested.arena.game import Outcome
 from mc_nested.arena.rules import WITH_BLOCK, front_of, is_inside, moved
 from mc_nested.errors import LiveError, ScenarioError
-from mc_nested.live.model.coordinates import cell_at
-from mc_nested.live.model.reading import Block, Target
-from mc_nested.live.profile.arena import Arena
 
 
 def outcomes_of(walk: Sequence[Cell], block: Cell | None, built: Collection[Cell], size: int) -> list[Outcome]:
@@ -53,20 +49,18 @@ def placed_from(walk: Sequence[Cell], block: Cell) -> int:
     raise LiveError(f"a block was placed at {block}, not in front of you at {walk[-1]}: stand behind its cell")
 
 
-def new_block(target: Target | None, arena: Arena, built: Mapping[Cell, str], shown_id: str, size: int) -> Cell | None:
-    """Return the cell of a block that is looked at and wasn't known before; None if there is no such.
+def new_block(cell: Cell, level: int, name: str, built: Mapping[Cell, str], shown_id: str, size: int) -> Cell | None:
+    """Return the cell of a block that is looked at and wasn't known before; None if this one was.
 
     Args:
-        target: the block looked at.
-        arena: where it lies in the world.
+        cell: where it lies.
+        level: how high: 0 on the floor, which is at -1 itself.
+        name: the block's id.
         built: the cells that are known to hold a block, and its id.
         shown_id: the id of the block in hand.
-        size: the number of cells along each side of the scenario's arena.
+        size: the number of cells along each side of the arena.
     """
-    if target is None or target.pos is None or target.id is None:
-        return None
-    cell, level = cell_of(target.pos, arena)
-    if not is_inside(cell, size):
+    if not is_inside(cell, size) or (built.get(cell) == name and level == 0):
         return None
     if level < -1:
         raise LiveError(f"the floor at {cell} was broken: leave it whole")
@@ -74,19 +68,11 @@ def new_block(target: Target | None, arena: Arena, built: Mapping[Cell, str], sh
         raise LiveError(broken(cell))
     if level == 1:
         raise LiveError(f"a block stands at {cell} above the ground: place blocks on the floor alone")
-    if level != 0 or built.get(cell) == target.id:
-        return None
-    if target.id != shown_id:
-        raise LiveError(f"{target.id} was placed at {cell}, not {shown_id}: take that in hand")
-    return cell
+    if level == 0 and (cell in built or name != shown_id):
+        raise LiveError(f"{name} was placed at {cell}, not {built.get(cell, shown_id)}: take that in hand")
+    return cell if level == 0 else None
 
 
 def broken(cell: Cell) -> str:
     """Say that a block was broken, which no action does."""
     return f"the block at {cell} was broken, which the agent can't do: leave blocks where they are"
-
-
-def cell_of(block: Block, arena: Arena) -> tuple[Cell, int]:
-    """Return the cell that a block is in, and how many blocks above the floor's top it lies; the floor itself at -1."""
-    x, y, z = block
-    return cell_at(arena.position_of((x + 0.5, y, z + 0.5))), math.floor(y - arena.origin[1])

@@ -16,8 +16,8 @@ from mc_nested.errors import LiveError, TakenOverError
 from mc_nested.live.connection import GameConnection
 from mc_nested.live.input.stops import Takeover
 from mc_nested.live.model.coordinates import cell_at
-from mc_nested.live.model.person_moves import broken, cell_of, new_block, outcomes_of, placed_from
-from mc_nested.live.model.reading import Reading, Target, WorldPose
+from mc_nested.live.model.person_moves import broken, new_block, outcomes_of, placed_from
+from mc_nested.live.model.reading import Block, Reading, Target, WorldPose
 from mc_nested.live.model.timing import FRAME_S
 from mc_nested.live.motion.pose_observer import PoseFrame
 from mc_nested.live.profile.tables import Profile
@@ -104,7 +104,10 @@ class Person:
             return
         if cell != self._walk[-1]:
             self._walk.append(cell)
-        if (block := new_block(reading.target, self._arena, built, shown_id, self._size)) is not None:
+        target, block = reading.target, None
+        if target is not None and target.pos is not None and target.id is not None:
+            block = new_block(*self._cell_of(target.pos), target.id, built, shown_id, self._size)
+        if block is not None:
             self._tell(placed_from(self._walk, block), block, built)
         elif len(self._walk) > MOST_HELD + 1:
             self._tell(1, None, built)
@@ -126,10 +129,15 @@ class Person:
             return False
         before, self._looked_at = self._looked_at, reading.target
         if before is not None and before.pos is not None and reading.target != before:
-            cell, level = cell_of(before.pos, self._arena)
+            cell, level = self._cell_of(before.pos)
             if cell in built and level == 0:
                 raise LiveError(broken(cell))
         return True
+
+    def _cell_of(self, block: Block) -> tuple[Cell, int]:
+        """Return the cell that a block is in, and how many blocks above the floor's top it lies."""
+        x, y, z = block
+        return cell_at(self._arena.position_of((x + 0.5, y, z + 0.5))), y - self._arena.origin[1]
 
     def _looks_right(self, reading: Reading) -> bool:
         """Return whether the agent can go on from there; without cheats, only the player can turn the view back."""
