@@ -266,12 +266,11 @@ class LiveGame:
             self._controller.release_all()
         self._controller.is_attended = False
         ended = self._clock.now()
-        instead: dict[str, Fact] = {}
-        if outcome.instead is None:
-            self.log.ends(ended, self._controller.held_s(ended))
-        else:
+        instead = {} if outcome.instead is None else {"instead": int(outcome.instead)}
+        if instead:
             self.log.pauses()
-            instead["instead"] = int(outcome.instead)
+        else:
+            self.log.ends(ended, self._controller.held_s(ended))
         self._journal.note("done", cell=outcome.cell, placed=outcome.placed, seconds=ended - began, **instead)
         self._cell = outcome.cell
         self._announced = following if self._body.is_under_way else None

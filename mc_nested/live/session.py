@@ -165,14 +165,8 @@ def open_live_game(scenario: Scenario, opening: Opening) -> Iterator[tuple[LiveG
         check_block_is_named(reading, game_in(display.title(), profile.game).version)
         if opening.takeover is not None:
             say(f"To take over, and to give back, press {profile.keys.takeover}.")
-        game = LiveGame(
-            scenario,
-            profile,
-            connection,
-            points=points,
-            evidence=opening.evidence,
-            takeover=replace(opening.takeover or Takeover(), say=say),
-        )
+        takeover = replace(opening.takeover or Takeover(), say=say)
+        game = LiveGame(scenario, profile, connection, points=points, evidence=opening.evidence, takeover=takeover)
         with game, guarded():
             yield game, display
 

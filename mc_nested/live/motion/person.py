@@ -105,9 +105,9 @@ class Person:
         if cell != self._walk[-1]:
             self._walk.append(cell)
         target, block = reading.target, None
-        if target is not None and target.pos is not None and target.id is not None:
+        if target and target.pos and target.id:
             block = new_block(*self._cell_of(target.pos), target.id, built, shown_id, self._size)
-        if block is not None:
+        if block:
             self._tell(placed_from(self._walk, block), block, built)
         elif len(self._walk) > MOST_HELD + 1:
             self._tell(1, None, built)
@@ -128,7 +128,7 @@ class Person:
         if self._clock.now() - self._since < STILL_S:
             return False
         before, self._looked_at = self._looked_at, reading.target
-        if before is not None and before.pos is not None and reading.target != before:
+        if before and before.pos and reading.target != before:
             cell, level = self._cell_of(before.pos)
             if cell in built and level == 0:
                 raise LiveError(broken(cell))
