@@ -4,6 +4,7 @@ Beside one other window at most: they are drawn in real time.
 """
 
 import json
+import signal
 import subprocess
 import sys
 import time
@@ -23,6 +24,7 @@ from Xlib.ext import xtest
 from Xlib.protocol import event
 
 from mc_nested.arena.scenario_file import draw_grid, load_scenario
+from mc_nested.cli.interrupt import INTERRUPTED
 from mc_nested.design_files.load import load_any_scenario
 from mc_nested.live.model.reading import Block
 from mc_nested.live.profile.store import load_profile
@@ -237,14 +239,14 @@ def test_a_player_takes_over_a_live_training_and_gives_it_back(training: Trainin
             hands.sync()
             time.sleep(held_s)
 
-    process = training.start()
-    assert soon(training.is_moving)
-    tap(F9)
-    assert soon(training.is_resting)
-    before = truth.now()["feet"]
-    end = time.monotonic() + 2.0
-    while time.monotonic() < end:  # the agent presses nothing
-        assert training.is_resting()
+    words = training.words
+    words[words.index("--scenario") + 1] = "diamond"  # an episode long enough to be in it
+    process = training.start(*words)
+    assert soon(lambda: {"stone", "oak_planks"} & set(truth.built().values())), "an episode is under way"
+    tap(F9, 0.25)
+    before, end = truth.now()["feet"], time.monotonic() + 2.0
+    while time.monotonic() < end:
+        assert training.is_resting(), "nothing of the agent's is pressed"
         time.sleep(0.02)
     tap(S, 0.25)
     tap(A, 0.25)
@@ -252,8 +254,9 @@ def test_a_player_takes_over_a_live_training_and_gives_it_back(training: Trainin
     assert process.poll() is None
     tap(F9)
     assert soon(training.is_moving)
-    _, said = process.communicate(timeout=300)
-    assert process.returncode == 0, said
+    process.send_signal(signal.SIGINT)
+    _, said = process.communicate(timeout=SOON_S)
+    assert process.returncode == INTERRUPTED, said
     assert "To take over, and to give back, press f9." in said
     assert truth.keys_left_down() == []
 
