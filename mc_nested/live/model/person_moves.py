@@ -16,13 +16,8 @@ from mc_nested.errors import LiveError, ScenarioError
 def outcomes_of(walk: Sequence[Cell], block: Cell | None, built: Collection[Cell], size: int) -> list[Outcome]:
     """Return a walk from its first cell through the others as outcomes of actions; with a block, the last places it.
 
+    The cells need not be neighbours; ``block`` is the one in front of the last, ``built`` those that held one before.
     Only a move places a block: where there was none, as when a person turned, one away and back is taken for it.
-
-    Args:
-        walk: the cells, which need not be neighbours.
-        block: the cell in front of the last one, if a block was placed there.
-        built: the cells that held a block before.
-        size: the arena's.
     """
     done: list[tuple[Cell, Action]] = []
     cell = walk[0]
@@ -52,13 +47,8 @@ def placed_from(walk: Sequence[Cell], block: Cell) -> int:
 def new_block(cell: Cell, level: int, name: str, built: Mapping[Cell, str], shown_id: str, size: int) -> Cell | None:
     """Return the cell of a block that is looked at and wasn't known before; None if this one was.
 
-    Args:
-        cell: where it lies.
-        level: how high: 0 on the floor, which is at -1 itself.
-        name: the block's id.
-        built: the cells that are known to hold a block, and its id.
-        shown_id: the id of the block in hand.
-        size: the number of cells along each side of the arena.
+    It lies in ``cell``, at level 0 on the floor, which is at -1 itself; its id is ``name``, and ``shown_id`` that of
+    the block in hand. ``built`` are the cells that are known to hold a block, with its id.
     """
     if not is_inside(cell, size) or (built.get(cell) == name and level == 0):
         return None

@@ -28,8 +28,6 @@ STILL_S = 0.25
 MOST_HELD = 2
 """Moves that are held back: the screen may show a block when its player has gone on from there."""
 
-Pose = tuple[object, ...]
-
 
 class Person:
     """A player who may take over, and what was seen of them that wasn't said yet.
@@ -58,20 +56,15 @@ class Person:
         """Whether a player has had the game since then."""
         self._walk: list[Cell] = []
         self._ahead: deque[Outcome] = deque()
-        self._pose: Pose = ()
+        self._pose: WorldPose | None = None
         self._since = 0.0
         self._looked_at: Target | None = None
 
     def follow(self, cell: Cell, built: Mapping[Cell, str], shown_id: str) -> Outcome | None:
         """Wait for the player's next whole action; return None once the game is given back, and nothing is left.
 
-        Args:
-            cell: where the last action ended.
-            built: the cells that hold a block, and the block's id.
-            shown_id: the id of the block that the player may place.
-
-        Raises:
-            LiveError: what the player did is none of the agent's actions, or the run is stopped.
+        ``cell`` is where the last action ended, ``built`` the cells that hold a block, with its id, and ``shown_id``
+        the id of the block in hand. Raise LiveError if the player did what no action does, or the run stops.
         """
         self.is_followed = True
         if not self._ahead and self._controller.has_yielded:
@@ -93,10 +86,11 @@ class Person:
         """Take in what is seen now. What can't be read, as behind a menu, is the player's own business."""
         reading = self._screen.read() if self._display.is_in_front() else Reading()
         if reading.xyz is None or reading.yaw is None or reading.pitch is None:
-            self._pose = ()
+            self._pose = None
             return
-        is_still = self._is_still(reading, built)
-        cell = cell_at(self._arena.position_of(reading.xyz))
+        pose, target = WorldPose(reading.xyz, reading.yaw, reading.pitch), reading.target
+        is_still = self._is_still(pose, target, built)
+        cell = cell_at(self._arena.position_of(pose.xyz))
         if not is_inside(cell, self._size):
             self._say_once(f"You have left the arena: come back, or give back with {self._key}.")
             if is_still and self._controller.take_back():
@@ -104,14 +98,14 @@ class Person:
             return
         if cell != self._walk[-1]:
             self._walk.append(cell)
-        target, block = reading.target, None
+        block = None
         if target and target.pos and target.id:
             block = new_block(*self._cell_of(target.pos), target.id, built, shown_id, self._size)
         if block:
             self._tell(placed_from(self._walk, block), block, built)
         elif len(self._walk) > MOST_HELD + 1:
             self._tell(1, None, built)
-        elif is_still and self._looks_right(reading) and self._controller.take_back():
+        elif is_still and self._looks_right(pose) and self._controller.take_back():
             self._tell(len(self._walk) - 1, None, built)
             self._walk, self._said = [], ""
 
@@ -120,15 +114,14 @@ class Person:
         self._ahead.extend(outcomes_of(self._walk[: place + 1], block, built, self._size))
         self._walk = self._walk[place:]
 
-    def _is_still(self, reading: Reading, built: Mapping[Cell, str]) -> bool:
+    def _is_still(self, pose: WorldPose, target: Target | None, built: Mapping[Cell, str]) -> bool:
         """Return whether the player stands still; raise LiveError if a block is gone that they looked at then."""
-        pose = reading.xyz, reading.yaw, reading.pitch
         if pose != self._pose:
             self._pose, self._since, self._looked_at = pose, self._clock.now(), None
         if self._clock.now() - self._since < STILL_S:
             return False
-        before, self._looked_at = self._looked_at, reading.target
-        if before and before.pos and reading.target != before:
+        before, self._looked_at = self._looked_at, target
+        if before and before.pos and target != before:
             cell, level = self._cell_of(before.pos)
             if cell in built and level == 0:
                 raise LiveError(broken(cell))
@@ -139,11 +132,9 @@ class Person:
         x, y, z = block
         return cell_at(self._arena.position_of((x + 0.5, y, z + 0.5))), y - self._arena.origin[1]
 
-    def _looks_right(self, reading: Reading) -> bool:
+    def _looks_right(self, pose: WorldPose) -> bool:
         """Return whether the agent can go on from there; without cheats, only the player can turn the view back."""
-        if not self._must_look_ahead or reading.xyz is None or reading.yaw is None or reading.pitch is None:
-            return True
-        problem = self._frame.problem(WorldPose(reading.xyz, reading.yaw, reading.pitch))
+        problem = self._frame.problem(pose) if self._must_look_ahead else None
         if problem is not None:
             self._say_once(f"Before the agent can go on: {problem}.")
         return problem is None
