@@ -19,6 +19,7 @@ McNestedError
 └── LiveError            the game did not do what was asked; keys are released before it is raised
     ├── NotInFrontError  another window is in front: nothing was pressed
     ├── WrongScreenError the screen was not just seen to be the one that a press is meant for: nothing was pressed
+    ├── TakenOverError   the player has taken over: nothing was pressed
     ├── StoppedError     stopped by the panic key or the mouse in a corner: it is not tried again
     ├── UnreadableError  the debug screen stayed unreadable for too long
     └── NotConfirmedError  a move or a placed block was not seen on the screen in time
@@ -99,6 +100,10 @@ class NotInFrontError(LiveError):
 
 class WrongScreenError(LiveError):
     """The screen was not just seen to be the one that a press is meant for: nothing was pressed."""
+
+
+class TakenOverError(LiveError):
+    """The player has taken over: nothing is pressed until the game is given back."""
 
 
 class StoppedError(LiveError):

@@ -4,6 +4,7 @@ Beside one other window at most: they are drawn in real time.
 """
 
 import json
+import signal
 import subprocess
 import sys
 import time
@@ -23,6 +24,7 @@ from Xlib.ext import xtest
 from Xlib.protocol import event
 
 from mc_nested.arena.scenario_file import draw_grid, load_scenario
+from mc_nested.cli.interrupt import INTERRUPTED
 from mc_nested.design_files.load import load_any_scenario
 from mc_nested.live.model.reading import Block
 from mc_nested.live.profile.store import load_profile
@@ -37,7 +39,7 @@ from tests.made_once import made_once
 
 pytestmark = pytest.mark.window
 
-F12 = 96
+F12, F9, S, A = 96, 75, 39, 38
 """A keycode of an X server: 8 more than Linux's own."""
 
 LONGEST_CALIBRATION_S = 180.0
@@ -226,6 +228,37 @@ def test_the_panic_key_stops_a_live_training_which_goes_on_later(training: Train
     _, said = resumed.communicate(timeout=300)
     assert resumed.returncode == 0, said
     assert json.loads((training.run / "summary.json").read_text())["episodes_done"] == [12]
+
+
+def test_a_player_takes_over_a_live_training_and_gives_it_back(training: Training) -> None:
+    truth, hands = training.rehearsal.truth, training.display
+
+    def tap(key: int, held_s: float = 0.05) -> None:
+        for kind in (X.KeyPress, X.KeyRelease):
+            xtest.fake_input(hands, kind, key)
+            hands.sync()
+            time.sleep(held_s)
+
+    words = training.words
+    words[words.index("--scenario") + 1] = "diamond"  # an episode long enough to be in it
+    process = training.start(*words)
+    assert soon(lambda: not {"stone", "oak_planks"}.isdisjoint(truth.built().values())), "an episode is under way"
+    tap(F9, 0.25)
+    before, end = truth.now()["feet"], time.monotonic() + 2.0
+    while time.monotonic() < end:
+        assert training.is_resting(), "nothing of the agent's is pressed"
+        time.sleep(0.02)
+    tap(S, 0.25)
+    tap(A, 0.25)
+    assert soon(lambda: truth.now()["feet"] != before)
+    assert process.poll() is None
+    tap(F9)
+    assert soon(training.is_moving)
+    process.send_signal(signal.SIGINT)
+    _, said = process.communicate(timeout=SOON_S)
+    assert process.returncode == INTERRUPTED, said
+    assert "To take over, and to give back, press f9." in said
+    assert truth.keys_left_down() == []
 
 
 def test_a_live_training_survives_another_window_in_front_and_a_new_window_size(training: Training) -> None:

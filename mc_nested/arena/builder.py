@@ -93,7 +93,7 @@ def _spread(reached: set[Cell], cell: Cell, placed: Collection[Cell], size: int)
                 waiting.append(there)
 
 
-def _way(start: Cell, goal: Cell, placed: Collection[Cell], size: int) -> list[Action]:
+def way_to(start: Cell, goal: Cell, placed: Collection[Cell], size: int) -> list[Action]:
     """Return the fewest moves that end there, one at least: a block is only placed after a move."""
     waiting: deque[tuple[Cell, list[Action]]] = deque([(start, [])])
     seen: set[Cell] = set()
@@ -123,7 +123,7 @@ def build(scenario: Scenario) -> list[Action]:
     for target in order:
         stand = _before(target)
         if scenario.parts:
-            path = _way(cell, stand, placed, scenario.size)
+            path = way_to(cell, stand, placed, scenario.size)
         else:  # nothing is ever in the way
             path = _walk(cell, stand) or _step_aside(cell, scenario.size)
         actions += [*path[:-1], WITH_BLOCK[path[-1]]]

@@ -30,6 +30,7 @@ from mc_nested.learn.dqn.engines import SCREEN
 from mc_nested.learn.evaluation import GreedyEpisode, build_greedily, play_greedily
 from mc_nested.learn.runs.run_folder import RunFolder
 from mc_nested.live.devices import Display
+from mc_nested.live.input.stops import Takeover
 from mc_nested.live.live_game import started_over
 from mc_nested.live.menus.click_points import picture_bytes
 from mc_nested.report.film import check_film
@@ -88,7 +89,10 @@ def play(  # noqa: PLR0913 - a Typer verb: a parameter for each option
         evidence=folder.path / "evidence",
     )
     with viewed(view, "play", f"{scenario.name}, trial {which}, {where_words(backend)}") as viewing:
-        window = open_game(backend, scenario, replace(opening, journal=viewing.publisher.board))
+        publisher = viewing.publisher
+        window = open_game(
+            backend, scenario, replace(opening, journal=publisher.board, takeover=Takeover(publisher.offer_takeover))
+        )
         with window as (opened, display), filmed(opened, display, scenario, video) as game:
             pictures = _Screenshots(folder.path / "screenshots", display) if screenshots and display else None
             is_quiet = output.quiet or output.as_json

@@ -17,13 +17,14 @@ from mc_nested.cli.progress import STOPPING, TrainingProgress
 from mc_nested.cli.training_end import draw_results, say_end
 from mc_nested.cli.training_view import TrainingView
 from mc_nested.cli.view import Viewed, viewed
-from mc_nested.errors import ClusterError, DesktopError, LiveError, NotInFrontError
+from mc_nested.errors import ClusterError, DesktopError, LiveError, NotInFrontError, TakenOverError
 from mc_nested.learn.objective_training import ObjectivesTraining
 from mc_nested.learn.runs.earlier_run import EarlierRun, earlier_run
 from mc_nested.learn.runs.run_folder import RunFolder
 from mc_nested.learn.trainer import Trainer
 from mc_nested.learn.training import Training
 from mc_nested.live.action_log import FailureBudget
+from mc_nested.live.input.stops import Takeover
 from mc_nested.live.session import Opening
 from mc_nested.report.game_time import expected
 from mc_nested.report.tensorboard import FOLDER, TensorBoard, is_installed
@@ -51,7 +52,8 @@ class OwnPlayer:
     def play_on(self) -> list[str]:
         """Play one tick, and return the practice's news. A mishap in a running game costs its episode, and is counted.
 
-        A person in another window who pauses, or did so shortly before, is not counted as a mishap.
+        A person in another window who pauses, or did so shortly before, is not counted as a mishap, nor is one who has
+        taken over when the run is stopped.
         """
         try:
             self.training.tick()
@@ -60,8 +62,10 @@ class OwnPlayer:
             raise
         except LiveError as error:
             self.training.abandon_episodes()
-            if not (isinstance(error, NotInFrontError) and self.was_paused_lately()):
+            is_left = isinstance(error, NotInFrontError) and self.was_paused_lately()
+            if not (is_left or isinstance(error, TakenOverError)):
                 self.failures.record_failure(error, self.training.env_steps)
+                return [f"{error}; the episode starts over", *self.training.practice.news()]
         return self.training.practice.news()
 
     def end(self) -> None:
@@ -182,6 +186,7 @@ def run_training(folder: RunFolder, resumed: bool, how: HowToRun, begin_from: Pa
             what=f"train-{folder.scenario.name}",
             evidence=path / "evidence",
             journal=publisher.board,
+            takeover=Takeover(publisher.offer_takeover, lambda: interrupt.requested),
         )
         opened = (
             games_at_play(folder, how.games, interrupt, output.note)

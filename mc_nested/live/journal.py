@@ -3,7 +3,7 @@
 from typing import Literal, Protocol
 
 NoteKind = Literal[
-    "waits", "resets", "stands", "acts", "done", "reads", "plans", "clicks", "types", "recovers", "fails"
+    "waits", "resets", "stands", "acts", "follows", "done", "reads", "plans", "clicks", "types", "recovers", "fails"
 ]
 """The kinds of notes, with their facts:
 
@@ -12,7 +12,8 @@ resets    material: its number; placed, pressed, tick_phase: what the game knows
 stands    cell: where the agent is after a reset
 acts      action: its number; cell: where it begins; with parts, material: the number of the one to take in hand;
           following: the action that was announced to come next, and its material or None
-done      cell; placed: a cell or None; seconds
+follows   the player has taken over, and does the action that was asked for, or another one
+done      cell; placed: a cell or None; seconds; where the player did another action, instead: its number
 reads     xyz, yaw, pitch, target: what the debug screen says; or problem: why it can't be read
 plans     key, ticks, sneak: the next hold of a key         clicks    attempt: 0 for the first click of a block
 types     line: a command that is typed into the chat       fails     problem: the error, in words

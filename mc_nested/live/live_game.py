@@ -1,6 +1,7 @@
 """LiveGame: the Game that is played in a window, by reading the debug screen and timing keys."""
 
-from collections.abc import Callable, Collection, Iterable
+from collections.abc import Callable, Collection, Iterable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import TypeVar
 
@@ -8,16 +9,19 @@ from mc_nested.arena import rules
 from mc_nested.arena.action import Action, Cell
 from mc_nested.arena.game import Following, Outcome
 from mc_nested.arena.scenario import Scenario
-from mc_nested.errors import LiveError, NotInFrontError, ProfileError, StoppedError
+from mc_nested.errors import LiveError, NotInFrontError, ProfileError, StoppedError, TakenOverError
 from mc_nested.live.action_log import ActionLog
 from mc_nested.live.connection import GameConnection
+from mc_nested.live.input.stops import Takeover
 from mc_nested.live.journal import Fact
 from mc_nested.live.menus.chat import Chat
 from mc_nested.live.menus.click_points import ClickPoints
 from mc_nested.live.menus.recovery import Recovery
 from mc_nested.live.menus.reset import reset_commands, restore_world, teleport_command
+from mc_nested.live.model.timing import PERSON_LOOK_S
 from mc_nested.live.motion.move_and_place import Body
 from mc_nested.live.motion.overlap_plan import Leg
+from mc_nested.live.motion.person import Person
 from mc_nested.live.profile.tables import Profile, WorldTable
 from mc_nested.live.vision.chat_region import LastFrames
 from mc_nested.live.vision.game_screen import seen_gui_scale
@@ -25,6 +29,8 @@ from mc_nested.live.vision.game_screen import seen_gui_scale
 RESET_TRIES = 4
 """Attempts at a reset before its error is raised."""
 
+HANDS_OFF_S = 1.0
+"""Seconds that a player who has the game gets to take their hands off before a reset presses anything."""
 
 TRIES = 3
 """Attempts at an episode: a mishap in the running game may end all but the last."""
@@ -85,6 +91,7 @@ class LiveGame:
         evidence: the folder for the last frames, written when a reset fails for good.
         restore: makes a world's folder the same as its template, for games without commands.
         overlaps: whether the next action's walk begins before an action is confirmed, where the next one is known.
+        takeover: how the run lets a player take over; the controller is what switches over.
 
     Raises:
         ProfileError: the profile has no arena, or ``check_fits`` refuses it.
@@ -103,6 +110,7 @@ class LiveGame:
         evidence: Path | None = None,
         restore: Callable[[Path, Path], None] = restore_world,
         overlaps: bool = True,
+        takeover: Takeover | None = None,
     ) -> None:
         check_fits(scenario, profile)
         self._scenario = scenario
@@ -113,6 +121,9 @@ class LiveGame:
         self._clock = connection.devices.clock
         self._journal = connection.journal
         self._body = Body(profile, connection)
+        takeover = takeover or Takeover()
+        self._person = Person(profile, connection, scenario.size, takeover)
+        self._say = takeover.say
         self._chat = Chat(profile, connection)
         self._recovery = Recovery(profile, connection, points)
         self._last_frames = LastFrames(connection.devices.display, evidence, lambda: seen_gui_scale(connection.screen))
@@ -136,13 +147,24 @@ class LiveGame:
     def reset(self, material: int) -> Cell:
         """Clear the marked blocks, stand on the start cell, select the material; position and view are read back.
 
-        If the last action left another screen open, that is left first.
+        If the last action left another screen open, that is left first. A player who has taken over is told to take the
+        hands off, and has the game again afterwards; one who takes over meanwhile has to give it back.
         """
         self._cell, self._announced = None, None
         self.log.pauses()
         self._controller.release_all()
         self._body.forget()
+        self._person.forget()
         self._journal.note("resets", material=material, **self._known())
+        with self._hands_off():
+            self._reset(material)
+        self._placed.clear()
+        self._material = material
+        self._cell = self._scenario.start
+        self._journal.note("stands", cell=self._cell)
+        return self._cell
+
+    def _reset(self, material: int) -> None:
         for tries_left in reversed(range(RESET_TRIES)):
             try:
                 self.connection.check_single_player()
@@ -159,13 +181,30 @@ class LiveGame:
                 if not tries_left:
                     raise self._with_evidence(error) from None
                 self.log.failed_resets += 1
+                if isinstance(error, TakenOverError):
+                    self._wait_for_the_game()
             finally:
                 self._controller.release_all()
-        self._placed.clear()
-        self._material = material
-        self._cell = self._scenario.start
-        self._journal.note("stands", cell=self._cell)
-        return self._cell
+
+    @contextmanager
+    def _hands_off(self) -> Iterator[None]:
+        """Borrow the game for the block from a player who has taken over."""
+        if self._controller.take_back() or not self._controller.has_yielded:
+            yield
+            return
+        with self._controller.borrowed():
+            self._say("The episode is over: hands off while the arena is reset.")
+            self._clock.sleep_until(self._clock.now() + HANDS_OFF_S)
+            yield
+        if not self._controller.take_back() and self._controller.has_yielded:
+            self._say("The arena is reset: it is yours again.")
+
+    def _wait_for_the_game(self) -> None:
+        """Wait until a player who has taken over during a reset gives the game back."""
+        self._say(f"The arena is only half reset: give back with {self._profile.keys.takeover}, and it is done again.")
+        while self._controller.has_yielded and not self._controller.take_back():
+            self._person.check_running()
+            self._clock.sleep_until(self._clock.now() + PERSON_LOOK_S)
 
     def see_others(self, placed: Collection[Cell], cells: Collection[Cell]) -> None:
         """Take note of other builders of this arena: where all blocks stand now, and which cells the others are in."""
@@ -197,7 +236,8 @@ class LiveGame:
 
         Before it, the hotbar key of another material is pressed. No screen says what is in the hand: that it was taken
         is confirmed by the next block, which must be of it. With ``following`` its key may be down on return; it goes
-        up in time, also if nothing more is asked for.
+        up in time, also if nothing more is asked for. While a player has taken over, their next action is waited for
+        instead; once they have given back, the agent goes on from where they stand.
         """
         announced, self._announced = self._announced, None
         if self._cell is None:
@@ -215,9 +255,7 @@ class LiveGame:
         self.log.begins(began, self._controller.held_s(began))
         self._controller.is_attended = True
         try:
-            if material is not None:
-                self._take_in_hand(material)
-            outcome = self._perform(cell, action, following if self._overlaps else None)
+            outcome = self._outcome(cell, action, material, following if self._overlaps else None)
         except BaseException as error:
             self._controller.release_all()
             if isinstance(error, LiveError):
@@ -228,8 +266,12 @@ class LiveGame:
             self._controller.release_all()
         self._controller.is_attended = False
         ended = self._clock.now()
-        self.log.ends(ended, self._controller.held_s(ended))
-        self._journal.note("done", cell=outcome.cell, placed=outcome.placed, seconds=ended - began)
+        instead = {} if outcome.instead is None else {"instead": int(outcome.instead)}
+        if instead:
+            self.log.pauses()
+        else:
+            self.log.ends(ended, self._controller.held_s(ended))
+        self._journal.note("done", cell=outcome.cell, placed=outcome.placed, seconds=ended - began, **instead)
         self._cell = outcome.cell
         self._announced = following if self._body.is_under_way else None
         if outcome.placed is not None:
@@ -240,6 +282,32 @@ class LiveGame:
         """Return the error with a note of where the last frames were saved, if there are any."""
         files = self._last_frames.save()
         return type(error)(f"{error}; what was seen last: {files[-1]}") if files else error
+
+    def _outcome(self, cell: Cell, action: Action, material: int | None, following: Following | None) -> Outcome:
+        """Perform an action; or, while a player has taken over, return what they did, also of what was under way."""
+        while True:
+            try:
+                if not (self._controller.has_yielded or self._person.is_followed):
+                    if material is not None:
+                        self._take_in_hand(material)
+                    return self._perform(cell, action, following)
+                self._material = self._material if material is None else material
+                outcome = self._person.follow(cell, self._placed, self._shown_id)
+                if outcome is not None:
+                    return outcome
+                self._stand_again(cell)
+            except TakenOverError:  # noqa: PERF203 - each try may be interrupted
+                self._person.check_running()
+                self._body.forget()
+
+    def _stand_again(self, cell: Cell) -> None:
+        """Go on after a player: stand in a cell and look ahead, the material in hand."""
+        self._body.forget()
+        if self._profile.world is None:
+            self._send(teleport_command(self._arena, cell, self._profile.body.pitch))
+            self._body.arrive(cell)
+        self._body.take(self._profile.keys.hotbar[self._material])
+        self._person.forget()
 
     def _perform(self, cell: Cell, action: Action, following: Following | None) -> Outcome:
         solid = self._placed.keys() | self._others

@@ -1,8 +1,8 @@
 """Open a live game: its window, the connection to it, and the Game that is played there, from one value, an Opening."""
 
 from collections.abc import Callable, Iterator
-from contextlib import AbstractContextManager, contextmanager, nullcontext
-from dataclasses import dataclass
+from contextlib import AbstractContextManager, ExitStack, contextmanager, nullcontext
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import tomlkit
@@ -12,10 +12,10 @@ from mc_nested.arena.scenario_file import table_of
 from mc_nested.errors import RecordingError
 from mc_nested.live.connection import GameConnection, prepare_keyboard
 from mc_nested.live.desktop import open_desktop
-from mc_nested.live.desktop.panic import open_panic_switch
+from mc_nested.live.desktop.panic import open_panic_switch, open_takeover_key
 from mc_nested.live.devices import SWITCH_KEYS, Devices, Display
 from mc_nested.live.input.input_controller import InputController
-from mc_nested.live.input.stops import Stop, watched
+from mc_nested.live.input.stops import Stop, Switch, Takeover, watched
 from mc_nested.live.journal import Journal, Journals
 from mc_nested.live.live_game import LiveGame, check_fits
 from mc_nested.live.menus.click_points import load_click_points
@@ -51,6 +51,8 @@ class Opening:
         evidence: the folder for the last frames of a game that was given up.
         open_devices: opens the window whose title matches.
         open_panic_switch: opens the panic switch of the key that a profile names.
+        open_takeover_key: has that key of a profile switch over between agent and player.
+        takeover: how a player may take over; None where nobody may.
 
     Raises:
         RecordingError: the recording's folder holds something already.
@@ -65,6 +67,8 @@ class Opening:
     evidence: Path | None = None
     open_devices: Callable[[str], AbstractContextManager[Devices]] = open_desktop
     open_panic_switch: Callable[[str, Stop], AbstractContextManager[None]] = open_panic_switch
+    open_takeover_key: Callable[[str, Switch], AbstractContextManager[None]] = open_takeover_key
+    takeover: Takeover | None = None
 
     def __post_init__(self) -> None:
         folder = self._recordings_folder
@@ -89,7 +93,7 @@ class Opening:
             devices = recorder.devices(window) if recorder else window
             if line := later_version_line(game_in(devices.display.title(), profile.game).version):
                 self.say(line)
-            controller = InputController(devices, profile.input)
+            controller = InputController(devices, profile.input, *([recorder.hands] if recorder else []))
             connection = GameConnection(
                 devices,
                 controller,
@@ -101,7 +105,12 @@ class Opening:
 
             @contextmanager
             def guarded() -> Iterator[None]:
-                with watched(controller), self.open_panic_switch(profile.keys.panic, stop):
+                with ExitStack() as guards:
+                    guards.enter_context(watched(controller))
+                    guards.enter_context(self.open_panic_switch(profile.keys.panic, stop))
+                    if self.takeover is not None:
+                        guards.enter_context(self.open_takeover_key(profile.keys.takeover, controller.switch_over))
+                        guards.enter_context(self.takeover.offer(controller.switch_over))
                     yield
 
             yield connection, guarded
@@ -154,7 +163,10 @@ def open_live_game(scenario: Scenario, opening: Opening) -> Iterator[tuple[LiveG
         check_hotbar(connection, points)
         check_fit(profile.calibrated, fingerprint_of(display, connection.screen.seen_scales()), opening.profile)
         check_block_is_named(reading, game_in(display.title(), profile.game).version)
-        game = LiveGame(scenario, profile, connection, points=points, evidence=opening.evidence)
+        if opening.takeover is not None:
+            say(f"To take over, and to give back, press {profile.keys.takeover}.")
+        takeover = replace(opening.takeover or Takeover(), say=say)
+        game = LiveGame(scenario, profile, connection, points=points, evidence=opening.evidence, takeover=takeover)
         with game, guarded():
             yield game, display
 

@@ -25,6 +25,7 @@ from mc_nested.view.files import (
     Scrubber,
     YesOrNo,
     ask_pause,
+    ask_takeover,
     ask_to_go_on,
     ask_to_stop,
     give_answer,
@@ -112,6 +113,7 @@ class ViewApp(App[None]):
     """
     BINDINGS: ClassVar[list[BindingType]] = [
         Binding("p", "pause", "pause, go on"),
+        Binding("t", "take_over", "take over, give back"),
         Binding("s", "stop", "stop"),
         Binding("ctrl+c", "interrupt", "stop", show=False, priority=True),
         Binding("q", "quit", "close"),
@@ -189,6 +191,8 @@ class ViewApp(App[None]):
         """Return whether a key can do anything now: others aren't offered."""
         if action == "pause":
             return self._life == "runs" and self._status.can_pause
+        if action == "take_over":
+            return self._life == "runs" and self._status.can_take_over
         if action == "stop":
             return self._life == "runs"
         if action == "answer":
@@ -205,6 +209,10 @@ class ViewApp(App[None]):
     def action_stop(self) -> None:
         """Ask to stop, as Ctrl+C does in the run's terminal."""
         self._ask(ask_to_stop)
+
+    def action_take_over(self) -> None:
+        """Let the player take over, or give back."""
+        self._ask(ask_takeover)
 
     def action_answer(self, is_yes: bool) -> None:
         """Answer the run's question, if it has one and that is on the screen."""
@@ -265,7 +273,8 @@ class ViewApp(App[None]):
         if (layout := self._layout_for(shown)) != self._layout:
             self._layout = layout
             self._lay_out(layout)
-        offered = (self._life, self._status.can_pause, self._status.question, self._past is None)
+        status = self._status
+        offered = (self._life, status.can_pause, status.can_take_over, status.question, self._past is None)
         if offered != self._offered:
             self._offered = offered
             self.refresh_bindings()

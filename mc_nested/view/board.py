@@ -39,6 +39,8 @@ def doing_of(kind: NoteKind, facts: dict[str, Fact]) -> Doing | None:
         case "acts":
             (x, y), action = cast("Cell", facts["cell"]), Action(cast("int", facts["action"]))
             doing = Doing(f"{words_of(action)}, from ({x}, {y})", "plays")
+        case "follows":
+            doing = Doing("the player plays, and gives back with the same key", "player")
         case "recovers":
             doing = Doing(f"finds its way back to the world, from the screen: {facts['screen']}", "waits")
         case "fails":
@@ -74,8 +76,8 @@ def named(action: Action) -> str:
 
 
 def action_seen(action: Action, facts: dict[str, Fact]) -> ActionSeen:
-    """Return what the note ``done`` says of the action."""
-    placed = facts["placed"]
+    """Return what the note ``done`` says of the action, or of the one that a player did instead."""
+    action, placed = Action(cast("int", facts.get("instead", action))), facts["placed"]
     return ActionSeen(
         named(action),
         cast("Cell", facts["cell"]),

@@ -3,9 +3,9 @@
 A run's status: now.json is its status now, history.jsonl its earlier ones, coarser the longer it lasts. A reader sees
 either the old status or the new one, never a half. A scrubber is at one moment of the history.
 
-What a person asks of a run through a view: pause, stop, the answer to a question. Each is a file of its own, so no
-request can overwrite another, whatever several views ask at once. A pause lasts while somebody looks: a view that wants
-it renews its file, and one that nobody renews is over.
+What a person asks of a run through a view: pause, stop, taking over, the answer to a question. Each is a file of its
+own, so no request can overwrite another, whatever several views ask at once. A pause lasts while somebody looks: a view
+that wants it renews its file, and one that nobody renews is over.
 """
 
 import contextlib
@@ -197,7 +197,7 @@ class Scrubber:
         return Text.assemble(f"{first} ", ("━" * mark, "cyan"), ("●", "bold cyan"), "─" * (room - 1 - mark), f" {last}")
 
 
-PAUSE, STOP, ANSWER = "pause.request", "stop.request", "answer.request"
+PAUSE, STOP, ANSWER, TAKEOVER = "pause.request", "stop.request", "answer.request", "takeover.request"
 
 RENEWED_S = 5.0
 """Seconds after which a pause that nobody renewed is over: a view renews it three times a second."""
@@ -237,6 +237,11 @@ def ask_to_stop(folder: Path) -> None:
     (folder / FOLDER / STOP).touch()
 
 
+def ask_takeover(folder: Path) -> None:
+    """Ask the run to let the player take over, or to take the game back. Raise OSError if nothing can be written."""
+    (folder / FOLDER / TAKEOVER).touch()
+
+
 def give_answer(folder: Path, answer: YesOrNo) -> None:
     """Answer the run's question. Raise OSError if nothing can be written there."""
 
@@ -254,7 +259,7 @@ class Requests:
         self._folder = folder / FOLDER
         self._clock = clock
         self._renewed: tuple[int, float] | None = None
-        for name in (PAUSE, STOP, ANSWER):
+        for name in (PAUSE, STOP, ANSWER, TAKEOVER):
             with contextlib.suppress(OSError):
                 (self._folder / name).unlink(missing_ok=True)
 
@@ -272,6 +277,13 @@ class Requests:
     def is_stop_asked(self) -> bool:
         """Return whether somebody asked to stop."""
         return (self._folder / STOP).exists()
+
+    def takes_takeover(self) -> bool:
+        """Return whether somebody asked to take over, or to give back, since the last call."""
+        with contextlib.suppress(OSError):
+            (self._folder / TAKEOVER).unlink()
+            return True
+        return False
 
     def answer_to(self, number: int) -> bool | None:
         """Return the answer to that question; None where there is none yet."""

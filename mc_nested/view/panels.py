@@ -116,6 +116,7 @@ def _said(lines: tuple[str, ...], width: int) -> list[Text]:
 SIGNS = {
     "works": ("▶", "bold green"),
     "plays": ("▶", "bold green"),
+    "player": ("◆", "bold cyan"),
     "waits": ("…", "bold yellow"),
     "asks": ("?", "bold yellow"),
     "paused": ("‖", "bold yellow"),

@@ -6,7 +6,7 @@ import signal
 import sys
 import threading
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 from types import TracebackType
 
@@ -54,6 +54,7 @@ class Publisher:
         self._stop = stop or press_ctrl_c
         self._requests: Requests | None = None
         self._is_pause_asked = self._is_stopped = False
+        self._switch: Callable[[], None] | None = None
         self._pause_ended_at = -BACK_WITHIN_S
         self._questions = itertools.count(time.time_ns() // 1_000_000)
         self._over = threading.Event()
@@ -103,6 +104,17 @@ class Publisher:
         self._pause_ended_at = time.monotonic()
         self.paused_s += self._pause_ended_at - began
 
+    @contextlib.contextmanager
+    def offer_takeover(self, switch: Callable[[], None]) -> Iterator[None]:
+        """While the block runs, a view may have a player take over, or give back: ``switch`` does so, in a thread."""
+        self._switch = switch
+        self.board.show(can_take_over=True)
+        try:
+            yield
+        finally:
+            self._switch = None
+            self.board.show(can_take_over=False)
+
     def answer(self, question: str, is_seen: Callable[[], bool] = lambda: True) -> bool | None:
         """Wait for a person's yes or no to a question in the view; return None once nobody sees it any more."""
         number = next(self._questions)
@@ -131,6 +143,8 @@ class Publisher:
             return
         self._is_pause_asked = self._requests.is_pause_asked()
         self.board.show(pausing=self.is_paused)
+        if self._requests.takes_takeover() and (switch := self._switch):
+            switch()
         if self._requests.is_stop_asked() and not self._is_stopped:
             self._is_stopped = True
             self.board.show(stopping=True)

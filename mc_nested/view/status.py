@@ -18,8 +18,9 @@ MOST_SCORES = 200
 MOST_LINES = 8
 """Lines that the run said, the latest ones."""
 
-Mood = Literal["works", "plays", "waits", "fails"]
-"""Whether the run goes on, does something in a running game that takes seconds, waits, or was set back."""
+Mood = Literal["works", "plays", "player", "waits", "fails"]
+"""Whether the run goes on, does something in a running game that takes seconds, leaves that to a player who has taken
+over, waits, or was set back."""
 
 Size = Annotated[int, Field(ge=1, le=32)]
 
@@ -109,8 +110,8 @@ class Status(BaseModel):
     """A run at one moment. Times are seconds since 1970; ``since`` is when it began what it does now.
 
     ``question`` waits for an answer of a person, by its number; ``can_pause``: it pauses when it is asked to;
-    ``pausing``: it does so after what is under way; ``share`` says where the actions' time went; ``ended`` how the run
-    ended.
+    ``pausing``: it does so after what is under way; ``can_take_over``: a player may take over; ``share`` says where the
+    actions' time went; ``ended`` how the run ended.
     """
 
     model_config = ConfigDict(frozen=True, ser_json_inf_nan="constants")
@@ -127,6 +128,7 @@ class Status(BaseModel):
     pausing: bool = False
     paused: bool = False
     stopping: bool = False
+    can_take_over: bool = False
     arena: ArenaSeen | None = None
     reading: ReadingSeen | None = None
     actions: tuple[ActionSeen, ...] = ()

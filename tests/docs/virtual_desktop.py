@@ -92,14 +92,14 @@ def install(client: VirtualClient) -> None:
         yield client.devices
 
     @contextmanager
-    def open_panic_switch(*_: object) -> Iterator[None]:
+    def open_nothing(*_: object) -> Iterator[None]:
         yield
 
     desktop.open_desktop = open_desktop
     desktop.open_clipboard = lambda: client.clipboard
     desktop.session_kind = lambda: "virtual"
     panic = types.ModuleType("mc_nested.live.desktop.panic")
-    vars(panic)["open_panic_switch"] = open_panic_switch
+    vars(panic).update(open_panic_switch=open_nothing, open_takeover_key=open_nothing)
     sys.modules[panic.__name__] = panic
 
 

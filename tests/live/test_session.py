@@ -10,7 +10,7 @@ import pytest
 
 from mc_nested.arena.scenario_file import load_scenario
 from mc_nested.errors import DesktopError, FontError, LiveError, NotInFrontError, ProfileError, StoppedError
-from mc_nested.live.input.stops import Stop
+from mc_nested.live.input.stops import Stop, Switch, Takeover
 from mc_nested.live.profile.fingerprint import Fingerprint
 from mc_nested.live.profile.tables import CalibratedTable, Profile, ScreenTable, WindowTable
 from mc_nested.live.session import Opening, fingerprint_of, open_live_game
@@ -174,3 +174,30 @@ def test_the_panic_switch_listens_to_the_profiles_key_and_stops_the_game(tmp_pat
         stop("enough")
         with pytest.raises(StoppedError, match="enough"):
             game.reset(0)
+
+
+def test_the_takeover_key_and_a_view_switch_over_and_the_player_is_told_the_key(tmp_path: Path) -> None:
+    client, said = VirtualClient(), list[str]()
+    keys: list[tuple[str, Switch]] = []
+    offered: list[Switch] = []
+
+    def noted(key: str, switch: Switch) -> AbstractContextManager[None]:
+        keys.append((key, switch))
+        return nullcontext()
+
+    def offer(switch: Switch) -> AbstractContextManager[None]:
+        offered.append(switch)
+        return nullcontext()
+
+    opening = opening_on(client, profile_in(tmp_path), said.append)
+    with open_live_game(LINE, replace(opening, open_takeover_key=noted)):
+        assert (keys, said) == ([], []), "nobody is to take over"
+    opening = replace(opening, open_takeover_key=noted, takeover=Takeover(offer))
+    with open_live_game(LINE, opening) as (game, _):
+        ((key, switch),) = keys
+        assert key == "f9"
+        assert said == ["To take over, and to give back, press f9."]
+        switch()
+        assert game.connection.controller.has_yielded
+        offered[0]()
+        assert game.connection.controller.take_back()

@@ -53,8 +53,13 @@ def opener(client: VirtualClient, titles: list[str]) -> OpenDevices:
 
 
 def opening_on(client: VirtualClient, profile: str, say: Callable[[str], None] = print) -> Opening:
-    """Opens that client's window, without a panic switch."""
-    return Opening(profile, say, open_devices=opener(client, []), open_panic_switch=lambda *_: nullcontext())
+    """Opens that client's window, without a panic switch and a takeover key."""
+
+    def nothing(*_: object) -> AbstractContextManager[None]:
+        return nullcontext()
+
+    devices = opener(client, [])
+    return Opening(profile, say, open_devices=devices, open_panic_switch=nothing, open_takeover_key=nothing)
 
 
 def live_on(client: VirtualClient) -> Callable[..., AbstractContextManager[tuple[LiveGame, Display]]]:
@@ -62,9 +67,7 @@ def live_on(client: VirtualClient) -> Callable[..., AbstractContextManager[tuple
 
     def opened(scenario: Scenario, opening: Opening) -> AbstractContextManager[tuple[LiveGame, Display]]:
         here = opening_on(client, opening.profile)
-        return open_live_game(
-            scenario,
-            replace(opening, open_devices=here.open_devices, open_panic_switch=here.open_panic_switch),
-        )
+        theirs = {name: getattr(here, name) for name in ("open_devices", "open_panic_switch", "open_takeover_key")}
+        return open_live_game(scenario, replace(opening, **theirs))
 
     return opened

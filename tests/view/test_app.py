@@ -11,7 +11,7 @@ from textual.pilot import Pilot
 
 from mc_nested.view import app as looking
 from mc_nested.view.app import ViewApp
-from mc_nested.view.files import FOLDER, Requests, StatusFiles, ask_pause
+from mc_nested.view.files import FOLDER, TAKEOVER, Requests, StatusFiles, ask_pause
 from mc_nested.view.status import FORMAT, ArenaSeen, Learning, Standing, Status
 from mc_nested.view.words import FRESH_S
 from tests.view.shown import LIVE, screen_text
@@ -51,6 +51,14 @@ STATUSES: dict[str, Status] = {
     "ninety trials": CROWD,
     "waiting for the player": LIVE.model_copy(
         update={"doing": "waits for the game's window to come to the front", "detail": "", "mood": "waits"}
+    ),
+    "taken over": LIVE.model_copy(
+        update={
+            "doing": "the player plays, and gives back with the same key",
+            "detail": "",
+            "mood": "player",
+            "can_take_over": True,
+        }
     ),
     "set back": LIVE.model_copy(
         update={"doing": "was set back: no block was seen at (2, 2)", "detail": "", "mood": "fails"}
@@ -214,6 +222,12 @@ def test_run_that_cannot_pause_is_not_asked_for_a_pause_and_p_is_not_offered(liv
     assert not heard.pause
     assert "pause" not in screen
     assert " s stop" in screen
+
+
+@pytest.mark.parametrize("may", [True, False])
+def test_t_asks_to_take_over_where_the_run_offers_that(live: Path, may: bool) -> None:
+    screen, _ = pressed(live, "t", status=LIVE.model_copy(update={"can_take_over": may}))
+    assert (live / FOLDER / TAKEOVER).exists() == may == ("t take over, give back" in screen)
 
 
 def test_ctrl_c_in_the_runs_own_view_stops_the_run(live: Path) -> None:

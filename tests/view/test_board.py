@@ -198,6 +198,7 @@ def test_an_action_has_its_name_in_the_paper_and_words(action: Action, name: str
         ("waits", {"on": "the game"}, Doing("waits for the game", "waits")),
         ("acts", {"action": 7, "cell": (1, 2)}, Doing("moves back and places a block (B+D), from (1, 2)", "plays")),
         ("fails", {"problem": "no block was seen"}, Doing("was set back: no block was seen", "fails")),
+        ("follows", {}, Doing("the player plays, and gives back with the same key", "player")),
         ("stands", {"cell": (0, 0)}, Doing("stands at the start, and chooses")),
         (
             "recovers",
@@ -235,6 +236,7 @@ def test_done_action_is_shown_with_its_cell_block_and_duration() -> None:
 
     assert action_seen(Action.RD, facts) == ActionSeen("R+D", (2, 3), (2, 4), 0.4)
     assert action_seen(Action.R, {**facts, "placed": None}).placed is None
+    assert action_seen(Action.R, {**facts, "instead": int(Action.FD)}).name == "F+D", "what a player did"
 
 
 def test_reading_is_shown_with_pose_and_looked_at_block_or_with_its_problem() -> None:

@@ -13,8 +13,10 @@ from mc_nested.view.board import Board
 from mc_nested.view.files import (
     FOLDER,
     STOP,
+    TAKEOVER,
     YesOrNo,
     ask_pause,
+    ask_takeover,
     ask_to_go_on,
     ask_to_stop,
     give_answer,
@@ -110,6 +112,19 @@ def test_a_run_waits_while_a_person_wants_a_pause(tmp_path: Path) -> None:
         # Windows counts time in steps of up to 16 ms.
         assert LOOK_S - 0.016 < publisher.paused_s < PATIENCE_S
         until(lambda: not status_now(tmp_path).paused)
+
+
+def test_a_view_takes_over_only_while_that_is_offered(tmp_path: Path) -> None:
+    switched: list[str] = []
+    with a_publisher(tmp_path) as publisher:
+        with publisher.offer_takeover(lambda: switched.append("over")):
+            until(lambda: status_now(tmp_path).can_take_over)
+            ask_takeover(tmp_path)
+            until(lambda: switched == ["over"])
+        until(lambda: not status_now(tmp_path).can_take_over)
+        ask_takeover(tmp_path)
+        until(lambda: not (tmp_path / FOLDER / TAKEOVER).exists())
+    assert switched == ["over"]
 
 
 def test_paused_run_waits_no_longer_once_it_is_over(tmp_path: Path) -> None:

@@ -11,6 +11,7 @@ from mc_nested.view.files import (
     Requests,
     YesOrNo,
     ask_pause,
+    ask_takeover,
     ask_to_go_on,
     ask_to_stop,
     give_answer,
@@ -133,3 +134,12 @@ def test_an_answer_that_can_not_be_replaced_yet_is_written_again(run: Path, monk
     give_answer(run, YesOrNo(number=3, is_yes=True))
 
     assert requests.answer_to(3) is True
+
+
+def test_each_request_to_take_over_is_taken_once(run: Path) -> None:
+    ask_takeover(run)
+    requests = Requests(run)
+    assert not requests.takes_takeover(), "it was asked of an earlier run"
+    ask_takeover(run)
+    assert requests.takes_takeover()
+    assert not requests.takes_takeover()

@@ -12,7 +12,9 @@ STUDY = "study"
 """The key of a study's config.toml that names it."""
 
 VIEW = "view"
-VIEW_FILES = frozenset({"now.json", "history.jsonl", "pause.request", "stop.request", "answer.request", LOCK})
+VIEW_FILES = frozenset(
+    {"now.json", "history.jsonl", *(f"{what}.request" for what in ("pause", "stop", "answer", "takeover")), LOCK}
+)
 """A run's folder of what ``mc-nested view`` shows, and its files; a run that never began leaves nothing else."""
 
 FORMAT = 3

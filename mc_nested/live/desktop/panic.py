@@ -1,7 +1,7 @@
-"""The real panic switch: threads that notice a key, and the mouse in a corner, whichever window is in front.
+"""The real panic switch and takeover key: threads that notice a key, and the mouse in a corner, in any window.
 
-The key stops always. The corner stops while the mouse is free, as in menus and other windows: in its world the game
-holds the mouse in the middle of its window, and a push only turns the view (FACTS: Keys).
+The panic key stops always. The corner stops while the mouse is free, as in menus and other windows: in its world the
+game holds the mouse in the middle of its window, and a push only turns the view (FACTS: Keys).
 """
 
 import math
@@ -10,7 +10,7 @@ from contextlib import contextmanager
 
 from mc_nested.live.desktop.key_listener import CLOSE_S, Listen, listening
 from mc_nested.live.desktop.pointer import load_pyautogui
-from mc_nested.live.input.stops import CORNER_REASON, KEY_REASON, Stop, corners_of
+from mc_nested.live.input.stops import CORNER_REASON, KEY_REASON, Stop, Switch, corners_of
 from mc_nested.live.model.keys import canonical, check_key
 
 
@@ -44,3 +44,19 @@ def open_panic_switch(key: str, stop: Stop, listen: Listen = listening) -> Itera
         yield
     # It closes its connection to the display some time after it is stopped.
     moves.join(CLOSE_S)
+
+
+@contextmanager
+def open_takeover_key(key: str, switch: Switch, listen: Listen = listening) -> Iterator[None]:
+    """While the context lasts, ``switch`` is called each time the key goes down; needs what the panic switch does."""
+    takeover_key, down = canonical(key), set[str]()
+
+    def on_key(name: str, is_down: bool) -> None:
+        if not is_down:
+            down.discard(name)
+        elif name == takeover_key and name not in down:  # a key that is held long goes down repeatedly
+            down.add(name)
+            switch()
+
+    with listen(on_key):
+        yield

@@ -8,13 +8,13 @@ Every press has an absolute release time, so late wake-ups never add up and no k
 
 import atexit
 import threading
-from collections.abc import Callable, Iterable
-from contextlib import ExitStack
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
 from functools import partial
 from typing import Literal, get_args
 
-from mc_nested.errors import NotConfirmedError, NotInFrontError, StoppedError, WrongScreenError
+from mc_nested.errors import NotConfirmedError, NotInFrontError, StoppedError, TakenOverError, WrongScreenError
 from mc_nested.live.devices import SWITCH_KEYS, Button, Devices
 from mc_nested.live.input.signals import signals_as_exit
 from mc_nested.live.model.kinematics import TICK_S
@@ -67,11 +67,18 @@ class InputController:
     As a context manager it also releases when the block, or the process, ends.
 
     Raises (every press and every wait): NotInFrontError if another window is in front, or comes to the front;
-    StoppedError once it was stopped. A press also: WrongScreenError if the screen that it is meant for was not just
-    confirmed. Everything held is released then.
+    StoppedError once it was stopped; TakenOverError while the player has the game. A press also: WrongScreenError if
+    the screen that it is meant for was not just confirmed. Everything held is released then.
+
+    Args:
+        devices: what is pressed, and the window that it is pressed in.
+        timing: how long a click is.
+        on_hands: every answer to who has the game, in a word and yes or no, passes through it, as through a recording.
     """
 
-    def __init__(self, devices: Devices, timing: InputTable) -> None:
+    def __init__(
+        self, devices: Devices, timing: InputTable, on_hands: Callable[[str, bool], bool] = lambda _, is_so: is_so
+    ) -> None:
         self._display = devices.display
         self._keyboard = devices.keyboard
         self._pointer = devices.pointer
@@ -90,6 +97,8 @@ class InputController:
         self._down_s = 0.0
         self._down_since: float | None = None
         self._stop_reason: str | None = None
+        self._on_hands = on_hands
+        self._is_players = self._is_yielded = self._is_borrowed = False
         self._exits = ExitStack()
 
     def __enter__(self) -> "InputController":
@@ -176,8 +185,9 @@ class InputController:
 
     def hover(self, x: int, y: int) -> None:
         """Move the mouse over a menu, to a position in framebuffer pixels, and press nothing."""
-        self._check_press("menu")
-        self._pointer.move(x, y)
+        with self._lock:
+            self._check_press("menu")
+            self._pointer.move(x, y)
         self.wait(TICK_S)
 
     def click_at(self, x: int, y: int) -> None:
@@ -237,9 +247,12 @@ class InputController:
         self._release(list(self._held))
 
     def release_again(self) -> None:
-        """Release everything that was ever pressed in the world: the game may have missed a release."""
+        """Release everything that was ever pressed in the world: the game may have missed a release.
+
+        Nothing is, while the player has the game, whose keys may be the same.
+        """
         with self._lock, ExitStack() as releases:
-            for release in self._pressed.values():
+            for release in () if self.has_yielded else self._pressed.values():
                 releases.callback(release)
 
     @property
@@ -271,6 +284,43 @@ class InputController:
         self._stop_reason = reason
         self.release_all()
 
+    def switch_over(self) -> None:
+        """Let the player take over at once, everything released; or give back. Any thread may call this.
+
+        Once taken over, nothing is pressed until whoever plays here calls ``take_back``, but for what is ``borrowed``.
+        """
+        with self._lock:
+            self._is_players = not self._is_players
+            if self._is_players:
+                self._is_yielded, self._is_borrowed = True, False
+                self.release_all()
+
+    @property
+    def has_yielded(self) -> bool:
+        """Whether the player has the game, so that nothing is pressed."""
+        return self._on_hands("yielded", self._is_yielded and not self._is_borrowed)
+
+    def take_back(self) -> bool:
+        """Return whether the player has given the game back; if so, presses are permitted again."""
+        with self._lock:
+            is_back = self._on_hands("given back", self._is_yielded and not self._is_players)
+            self._is_yielded = self._is_yielded and not is_back
+        return is_back
+
+    @contextmanager
+    def borrowed(self) -> Iterator[None]:
+        """Permit presses for the block, though the player has the game. Taking over anew ends that at once."""
+        self._is_borrowed = True
+        try:
+            yield
+        finally:
+            self._is_borrowed = False
+
+    def check_yielded(self) -> None:
+        """Raise TakenOverError while the player has the game."""
+        if self.has_yielded:
+            raise TakenOverError("the player has taken over, so nothing is pressed")
+
     def check_stopped(self) -> None:
         """Raise StoppedError once the controller was stopped."""
         if self._stop_reason is not None:
@@ -283,6 +333,7 @@ class InputController:
 
     def _check_running(self) -> None:
         self.check_stopped()
+        self.check_yielded()
         self.check_front()
 
     def _permit(self, screen: PressTarget) -> None:

@@ -1,17 +1,37 @@
-"""Two ways to stop an agent from outside: the panic switch, by which a person stops everything, and the watchdog.
+"""How an agent is stopped from outside: by the panic switch, by a player who takes over, and by the watchdog.
 
 The watchdog is a separate thread that releases keys held too long, even if the program hangs or is busy.
 """
 
 import threading
 from collections.abc import Callable, Collection, Iterator
-from contextlib import contextmanager
+from contextlib import AbstractContextManager, contextmanager, nullcontext
+from dataclasses import dataclass
 
 from mc_nested.live.input.input_controller import InputController
 from mc_nested.live.model.timing import KEY_LOOK_S
 
 Stop = Callable[[str], None]
 """Releases everything, and lets nothing be pressed again; takes the reason. Callable from any thread."""
+
+Switch = Callable[[], None]
+"""Lets a player take over, or give back. Callable from any thread."""
+
+
+@dataclass(frozen=True)
+class Takeover:
+    """How a run lets a player take over.
+
+    Args:
+        offer: has something of the run's, as its view, switch over while its context lasts.
+        is_stopped: whether somebody asked the run to stop: then nobody waits for the player.
+        say: shows the player one line.
+    """
+
+    offer: Callable[[Switch], AbstractContextManager[None]] = lambda _: nullcontext()
+    is_stopped: Callable[[], bool] = lambda: False
+    say: Callable[[str], None] = lambda _: None
+
 
 KEY_REASON = "the panic key was pressed"
 CORNER_REASON = "the mouse was moved into a corner of the screen"

@@ -156,8 +156,9 @@ class Recovery:
             self._sleep(EFFECT_S)
 
     def _sleep(self, seconds: float) -> None:
-        """Let time pass, whether the window is in front or not; raise StoppedError if it was stopped."""
+        """Let time pass, whether the window is in front or not; raise where it is ended."""
         self._controller.check_stopped()
+        self._controller.check_yielded()
         self._clock.sleep_until(self._clock.now() + seconds)
 
     # What leads from one screen to the next. The caller has just seen which one is shown.

@@ -61,6 +61,7 @@ class Body:
         """Look anew before anything else: what comes depends on nothing that was seen before."""
         self._observer.forget()
         self._overlap.end()
+        self._locomotion.set_coasting(None)
 
     def check_screen(self) -> None:
         """Check that the debug screen can be read and that the chat is closed; presses nothing."""

@@ -105,12 +105,15 @@ class KeysTable(ProfileTable):
     panic: Key = Field(
         default="f12", description="stops the agent at once, whichever window is in front; on a Mac usually with Fn"
     )
+    takeover: Key = Field(
+        default="f9", description="takes over from the agent, and gives back, whichever window is in front"
+    )
     hotbar: Annotated[tuple[Key, ...], Field(min_length=9, max_length=9)] = Field(
         default=tuple("123456789"), description="the keys of the nine hotbar slots, from the left"
     )
 
     def pressed(self) -> list[str]:
-        """Return the keys that are pressed into the game; the panic key is the player's."""
+        """Return the keys that are pressed into the game; the panic and the takeover key are the player's."""
         uses = (self.forward, self.back, self.left, self.right, self.sneak, self.chat, self.debug)
         return [*uses, *self.hotbar]
 

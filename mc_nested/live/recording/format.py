@@ -11,6 +11,7 @@ the same calls, answered alike, are the same run.
 ["now", 12.5]                        the clock's time            ["key", "press", "w"]     a key goes down
 ["sleep", 12.55]                     until then                  ["screen", "read", [], answer, pixels]
 ["front", true]                      whether it is in front      ["note", "acts", {...}]   what the journal was told
+["hands", "yielded"]                 a player has taken over
 """
 
 import json

@@ -87,6 +87,12 @@ class Recorder:
 
         return stop_and_say
 
+    def hands(self, whose: str, is_so: bool) -> bool:
+        """Record that the player has taken over, or given back, where the thread that plays notices; return that."""
+        if is_so:
+            self.tape.add("hands", whose)
+        return is_so
+
     def note(self, kind: NoteKind, /, **facts: Fact) -> None:
         """Record a note of the journal."""
         self.tape.note(kind, **facts)

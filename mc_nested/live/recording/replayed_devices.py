@@ -81,6 +81,13 @@ class ReplayedTape:
         self.skip()
         return then[len(now) :]
 
+    def hands(self, whose: str, _: bool) -> bool:
+        """Return whether the player had taken over, or given back, at this call."""
+        was_so = self.is_followed and self.peek() == ["hands", whose]
+        if was_so:
+            self.skip()
+        return was_so
+
     def note(self, kind: NoteKind, /, **facts: Fact) -> None:
         """Check that the note is the recorded one; outside an episode none is compared."""
         if self.is_followed:

@@ -89,7 +89,7 @@ class _Player:
         self._tape = ReplayedTape(self._calls(path))
         self._screen = ReplayedScreen(self._tape, self._pixels, self._compare)
         devices = replayed(self._tape, (width, height), facts.get("title", ""))
-        self._controller = InputController(devices, profile.input)
+        self._controller = InputController(devices, profile.input, self._tape.hands)
         self._tape.on_release = self._controller.was_released
         connection = GameConnection(
             devices,

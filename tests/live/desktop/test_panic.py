@@ -4,7 +4,7 @@ import pytest
 
 from mc_nested.errors import ProfileError
 from mc_nested.live.desktop.key_listener import CLOSE_S
-from mc_nested.live.desktop.panic import open_panic_switch
+from mc_nested.live.desktop.panic import open_panic_switch, open_takeover_key
 from mc_nested.live.input.stops import CORNER_REASON, KEY_REASON
 from tests.live.desktop.fake_devices import Listener, Mouse, install_mouse, install_pynput
 from tests.live.desktop.real_windows.heard_keys import HeardKeys
@@ -97,3 +97,15 @@ def test_a_real_key_and_a_real_mouse_stop_within_a_tenth_of_a_second(x_server: d
     report = probed(x_server, "panic")
     assert [reason for reason, _ in report["stopped by"]] == [KEY_REASON, CORNER_REASON, CORNER_REASON]
     assert max(seconds for _, seconds in report["stopped by"]) <= 0.1
+
+
+def test_the_takeover_key_switches_once_each_time_that_it_goes_down() -> None:
+    keys, switched = HeardKeys(), list[str]()
+    with open_takeover_key("f9", lambda: switched.append("over"), keys.listening):
+        for name in ("f9", "f9", "f12"):  # a key that is held long goes down again and again
+            keys.press(name)
+        assert switched == ["over"]
+        keys.release("f9")
+        keys.press("f9")
+    assert switched == ["over", "over"]
+    assert not keys.is_listening

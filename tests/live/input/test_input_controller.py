@@ -2,12 +2,13 @@
 
 import contextlib
 import signal
+from typing import get_args
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mc_nested.errors import NotConfirmedError, NotInFrontError, StoppedError, WrongScreenError
+from mc_nested.errors import NotConfirmedError, NotInFrontError, StoppedError, TakenOverError, WrongScreenError
 from mc_nested.live.input.input_controller import (
     FRESH_S,
     LONGEST_S,
@@ -41,6 +42,8 @@ def _press(controller: InputController, how: str) -> None:
         "click": lambda: controller.click("right"),
         "click_at": lambda: controller.click_at(3, 4),
         "hover": lambda: controller.hover(3, 4),
+        "tap_alone": lambda: controller.tap_alone("2"),
+        "press": lambda: controller.wait_until(controller.press(0.0, "w")),
         "type_line": lambda: controller.type_line("/fill"),
     }[how]()
 
@@ -566,3 +569,59 @@ def test_no_key_stays_down_or_reaches_another_window_whatever_happens(
                 controller.type_line(what)
     assert game.down == set()
     assert game.presses_behind == []
+
+
+PRESSES = ("hold", "tap", "click", "click_at", "hover", "type_line", "tap_alone", "press")
+
+
+@pytest.mark.parametrize("how", PRESSES)
+@given(st.floats(0.0, 0.3))
+def test_whatever_is_pressed_nothing_is_once_the_player_has_taken_over(how: str, after_s: float) -> None:
+    game = FakeGame(PROFILE)
+    controller = _controller(game)
+    controller.hold("d", 1)
+    controller.press(game.clock.now() + 0.2, "a")
+    controller.wait(after_s)
+    controller.switch_over()
+    assert game.down == set()
+    controller.switch_over()  # given back, but nobody has taken it back yet
+    before = list(game.presses)
+    for screen in get_args(PressTarget):
+        controller.confirm_screen(screen)
+        with pytest.raises(TakenOverError):
+            _press(controller, how)
+    controller.release_again()
+    assert (game.presses, game.down) == (before, set())
+    assert controller.take_back()
+    controller.confirm_screen("world")
+    controller.tap("1")
+    assert game.presses == [*before, "1"]
+
+
+def test_a_hold_ends_as_soon_as_the_player_takes_over() -> None:
+    game = FakeGame(PROFILE)
+    controller = _controller(game)
+    began = game.clock.now()
+    controller.press(began + 2.0, "w")
+    controller.wait(0.1)
+    controller.switch_over()
+    with pytest.raises(TakenOverError):
+        controller.wait_until(began + 2.0)
+    assert game.down == set()
+    assert game.clock.now() - began < 0.2
+
+
+def test_what_is_borrowed_from_the_player_ends_when_they_take_over_anew() -> None:
+    game = FakeGame(PROFILE)
+    controller = _controller(game)
+    controller.switch_over()
+    with controller.borrowed():
+        controller.tap("1")
+        controller.switch_over()
+        controller.confirm_screen("world")
+        controller.tap("2")
+        controller.switch_over()
+        with pytest.raises(TakenOverError):
+            controller.tap("3")
+    assert game.presses == ["1", "2"]
+    assert not controller.take_back()

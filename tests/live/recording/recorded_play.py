@@ -2,7 +2,9 @@
 
 import itertools
 import threading
+from collections.abc import Iterable
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -24,6 +26,7 @@ from mc_nested.live.vision.font import font_of
 from mc_nested.live.vision.game_screen import WindowScreen
 from sim.client.client import VirtualClient
 from sim.client.drawing.letters import drawn_atlas
+from tests.live.person import Hands
 
 STEPS_AN_EPISODE = 25
 FONT = font_of(drawn_atlas())
@@ -66,6 +69,15 @@ class StallingClock:
             watchdog.join()
 
 
+def _switch(controller: InputController, hands: Hands, is_theirs: bool) -> None:
+    """Take over, or give back, as the thread that listens to the keys does."""
+    listener = threading.Thread(target=controller.switch_over)
+    listener.start()
+    listener.join()
+    if is_theirs:
+        hands.play(hands.do([Action.L, Action.LD]))
+
+
 def record_play(
     folder: Path,
     actions: int,
@@ -75,11 +87,13 @@ def record_play(
     *,
     is_told: bool = False,
     stalls_every: int | None = None,
+    switches: Iterable[float] = (),
 ) -> list[LiveError]:
     """Record random actions into a folder, and return the errors of those that failed.
 
     With ``is_told`` each is announced beside the one before it; with ``stalls_every`` that many sleeps lie between two
-    stalls. The last frames of a game that is given up are kept beside the folder.
+    stalls. ``switches`` are the seconds after which a person takes over, or gives back, from a thread of their own, and
+    walks to the left meanwhile. The last frames of a game that is given up are kept beside the folder.
     """
     client = client or VirtualClient(seed=seed)
     scenario = load_scenario(scenario_name)
@@ -91,7 +105,10 @@ def record_play(
         assert recording
         clock = StallingClock(client.devices.clock, stalls_every) if stalls_every else None
         devices = recording.devices(replace(client.devices, clock=clock or client.devices.clock))
-        controller = InputController(devices, InputTable())
+        controller = InputController(devices, InputTable(), recording.hands)
+        hands = Hands(client, arena)
+        for is_back, in_s in enumerate(switches):
+            client.clock.call_at(client.clock.now() + in_s, partial(_switch, controller, hands, is_back % 2 == 0))
         if clock:
             clock.controller = controller
         connection = GameConnection(

@@ -181,6 +181,19 @@ def test_a_replay_follows_a_run_in_which_the_watchdog_released_keys(is_told: boo
     assert (seen.differences, seen.followed) == ([], seen.actions)
 
 
+@pytest.mark.parametrize("is_told", [False, True])
+@pytest.mark.parametrize("switches", [(2.0, 6.0), (0.5, 2.5), (3.37, 5.0, 8.01, 30.0)])
+def test_a_replay_follows_a_run_in_which_a_player_took_over(
+    is_told: bool, switches: tuple[float, ...], tmp_path: Path
+) -> None:
+    record_play(tmp_path / "play", 40, seed=3, is_told=is_told, switches=switches)
+    calls = [call.call for call in calls_of(tmp_path / "play")]
+    assert ["hands", "yielded"] in calls
+    assert ["hands", "given back"] in calls
+    seen = replay(tmp_path / "play", FONT)
+    assert (seen.differences, seen.followed) == ([], seen.actions)
+
+
 def test_a_recording_that_breaks_off_is_read_up_to_the_break(recording: Path, tmp_path: Path) -> None:
     calls = calls_of(recording)
     file = tmp_path / "whole.mcap"

@@ -1,20 +1,25 @@
 """The unchanged live path on a virtual client: what session.py wires to a desktop, wired to the client."""
 
+import shutil
+from pathlib import Path
+
 from mc_nested.arena.scenario import Scenario
 from mc_nested.live.connection import GameConnection, prepare_keyboard
 from mc_nested.live.input.input_controller import InputController
 from mc_nested.live.journal import Journal
 from mc_nested.live.live_game import LiveGame
+from mc_nested.live.menus.reset import MARKER
 from mc_nested.live.model.coordinates import Facing
 from mc_nested.live.model.reading import Reading
 from mc_nested.live.profile.arena import Arena
-from mc_nested.live.profile.tables import GameVersion, InputTable, Profile
+from mc_nested.live.profile.tables import GameVersion, InputTable, Profile, WorldTable
 from mc_nested.live.vision.debug_screen import read_debug_screen
 from mc_nested.live.vision.font import font_of
 from mc_nested.live.vision.game_screen import WindowScreen
 from mc_nested.live.vision.layout import VANILLA, Overlay
 from sim.client.client import VirtualClient
 from sim.client.drawing.letters import drawn_atlas
+from sim.client.game.realm import Stack, write_world
 
 FONT = font_of(drawn_atlas())
 TAP_S, SOON_S = 0.05, 0.3
@@ -51,6 +56,22 @@ def play(client: VirtualClient, scenario: Scenario, facing: Facing = "south") ->
         profile,
         connection_to(client),
     )
+
+
+def world_in(client: VirtualClient, scenario: Scenario, folder: Path) -> WorldTable:
+    """Save the client's world, ready for a scenario, in a folder and in a template of it."""
+    arena, player = arena_of(client), client.realm.player
+    player.go_to(arena.centre_of(scenario.start))
+    player.look(arena.yaw, 65.0)
+    for slot, material in enumerate(scenario.materials):
+        player.hotbar[slot] = Stack(
+            "planks" if material.block == "oak_planks" and not client.edition.since(1, 13) else material.block, 64
+        )
+    write_world(client.realm, folder)
+    (folder / MARKER).touch()
+    template = folder.parent.parent / "template"
+    shutil.copytree(folder, template, dirs_exist_ok=True)
+    return WorldTable(folder=str(folder), template=str(template), name="New World")
 
 
 def tap(client: VirtualClient, *keys: str) -> None:

@@ -1,6 +1,5 @@
 """A reset without cheats: by clicks, through the title screen, with the world's folder restored from its template."""
 
-import shutil
 from pathlib import Path
 
 import pytest
@@ -10,30 +9,21 @@ from mc_nested.arena.scenario_file import load_scenario
 from mc_nested.errors import DesktopError, RunError
 from mc_nested.live.live_game import LiveGame
 from mc_nested.live.menus.reset import MARKER
-from mc_nested.live.profile.tables import GameVersion, Profile, WorldTable
+from mc_nested.live.profile.tables import GameVersion, Profile
 from sim.client.client import VirtualClient
-from sim.client.game.realm import Stack, write_world
-from tests.sim.client.playing import arena_of, connection_to, play
+from tests.sim.client.playing import arena_of, connection_to, play, world_in
 
 LINE = load_scenario("line")
 
 
 def _game(client: VirtualClient, folder: Path) -> LiveGame:
-    arena = arena_of(client)
-    player = client.realm.player
-    player.go_to(arena.centre_of(LINE.start))
-    player.look(arena.yaw, 65.0)
-    for slot, material in enumerate(LINE.materials):
-        player.hotbar[slot] = Stack(
-            "planks" if material.block == "oak_planks" and not client.edition.since(1, 13) else material.block, 64
-        )
-    write_world(client.realm, folder)
-    (folder / MARKER).touch()
-    shutil.copytree(folder, folder.parent.parent / "template", dirs_exist_ok=True)
-    world = WorldTable(folder=str(folder), template=str(folder.parent.parent / "template"), name="New World")
     return LiveGame(
         LINE,
-        Profile(game=GameVersion(version=client.settings.version), arena=arena, world=world),
+        Profile(
+            game=GameVersion(version=client.settings.version),
+            arena=arena_of(client),
+            world=world_in(client, LINE, folder),
+        ),
         connection_to(client),
     )
 
