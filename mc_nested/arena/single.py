@@ -26,7 +26,7 @@ from mc_nested.arena.env import BLOCKS_LEFT, X, Y, highest_observation, space_up
 from mc_nested.arena.game import Resumable
 from mc_nested.arena.scenario import Scenario
 from mc_nested.arena.tally import tally_of
-from mc_nested.arena.vector import NO_ACTION, Foreseeing, foresees, reset_options, resumable_arenas
+from mc_nested.arena.vector import INSTEAD, NO_ACTION, Foreseeing, foresees, reset_options, resumable_arenas
 from mc_nested.arrays import Arrays, Bools, Float64s, Int64s
 
 OWN = "single_of_"
@@ -84,12 +84,12 @@ class SingleAgentVectorEnv(VectorWrapper):
         return self._seen(), {}
 
     def step(self, actions: Int64s) -> tuple[Int64s, Float64s, Bools, Bools, dict[str, Any]]:
-        """Do one of the ten actions in every running arena; ``info["score"]`` is as that of the arenas within."""
+        """Do one of the ten actions in every running arena; ``info`` is as that of the arenas within."""
         running = ~(self._terminated | self._truncated)
         first = running & (self._chosen == 0)
         chooses = first & (self._of_first_builder(actions) < self._materials)
         acts = running & ~first & (actions >= self._materials)
-        rewards = np.zeros(self.num_envs)
+        rewards, info = np.zeros(self.num_envs), dict[str, Any]()
         if chooses.any():
             materials = self._of_first_builder(actions)
             self.env.reset(options={"reset_mask": chooses, "material": np.where(chooses, materials, 0)})
@@ -103,7 +103,7 @@ class SingleAgentVectorEnv(VectorWrapper):
             self._chosen[takes] = actions[takes] + 1
             self._tally.take(takes, actions)
         if acts.any():
-            observations, earned, terminated = self._step_within(acts, actions)
+            observations, earned, terminated, info = self._step_within(acts, actions)
             seen = running & ~first  # where another builder acts, the blocks left change
             self._observations[seen] = observations[seen]
             rewards[acts] = earned[acts]
@@ -118,7 +118,7 @@ class SingleAgentVectorEnv(VectorWrapper):
             by_block = running & self._in_parts & (self._chosen > 0)
             self._score = np.where(by_block, self._tally.total(ended), self._score)
             rewards = np.where(by_block, self._score - before, rewards)
-        info = {"score": np.where(ended, self._score, 0.0), "_score": ended}
+        info |= {"score": np.where(ended, self._score, 0.0), "_score": ended}
         return self._seen(), rewards, self._terminated.copy(), self._truncated.copy(), info
 
     def occupied(self) -> Bools:
@@ -126,16 +126,19 @@ class SingleAgentVectorEnv(VectorWrapper):
         within: Bools = self.env.occupied()  # type: ignore[attr-defined]  # both kinds of arenas have it
         return within & (self._chosen > 0)[:, None, None]
 
-    def _step_within(self, acts: Bools, actions: Int64s) -> tuple[Int64s, Float64s, Bools]:
+    def _step_within(self, acts: Bools, actions: Int64s) -> tuple[Int64s, Float64s, Bools, dict[str, Any]]:
         """Do a building action in each of the masked arenas within.
 
-        Return what they showed and earned, and which terminated.
+        Return what they showed and earned, which terminated, and what a person did instead, as one of the ten actions.
         """
-        observations, earned, terminated, _, _ = self.env.step(self._taken_within(acts, actions))
+        observations, earned, terminated, _, within = self.env.step(self._taken_within(acts, actions))
         if self._tally:
             landed = acts & (observations[:, BLOCKS_LEFT] < self._observations[:, BLOCKS_LEFT])
             self._tally.lay(landed, observations[:, X], observations[:, Y] + 1)  # in front of the agent
-        return observations, earned, terminated
+        by_hand = {name: within[name] for name in (INSTEAD, f"_{INSTEAD}") if name in within}
+        if by_hand:
+            by_hand[INSTEAD] = np.where(by_hand[f"_{INSTEAD}"], by_hand[INSTEAD] + self._materials, NO_ACTION)
+        return observations, earned, terminated, by_hand
 
     def _taken_within(self, acts: Bools, actions: Int64s) -> Int64s:
         """Return what the arenas within take of these actions, where the mask says so."""

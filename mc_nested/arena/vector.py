@@ -31,6 +31,15 @@ NO_ACTION = -1
 """Instead of an action: nothing happens in that arena, and no step is counted."""
 
 
+INSTEAD = "instead"
+"""What ``info`` has where a person did another action than the one asked for, and only there."""
+
+
+def really_done(actions: Int64s, info: Mapping[str, Any]) -> Int64s:
+    """Return the actions (R,) that a step with that info did: those asked for, or what a person did instead."""
+    return np.where(info[f"_{INSTEAD}"], info[INSTEAD], actions) if INSTEAD in info else actions
+
+
 def resumable_arenas(env: VectorEnv[Int64s, Int64s, Any]) -> Resumable | None:
     """Return what saves and restores the arenas' episodes half-way; None if they have to start over.
 
@@ -121,10 +130,10 @@ class ArenaVectorEnv(VectorEnv[Int64s, Int64s, Any]):
     def step(self, actions: Int64s) -> tuple[Int64s, Float64s, Bools, Bools, dict[str, Any]]:
         """Do one action, or NO_ACTION, in every arena whose episode runs; ``info["score"]`` is r_M if ``_score``.
 
-        With parts, ``info`` says more (Info), each with its mask.
+        With parts, or where a person did another action, ``info`` says more (Info), each with its mask.
         """
         rewards = np.zeros(self.num_envs)
-        told = {"score": np.zeros(self.num_envs)}
+        told = {"score": np.zeros(self.num_envs), INSTEAD: np.full(self.num_envs, NO_ACTION)}
         if self.scenario.parts:
             told |= {"earned": np.zeros(self.num_envs), "chooses": np.zeros(self.num_envs, dtype=np.bool_)}
         masks = {f"_{name}": np.zeros(self.num_envs, dtype=np.bool_) for name in told}
@@ -137,6 +146,8 @@ class ArenaVectorEnv(VectorEnv[Int64s, Int64s, Any]):
             ].step(takes[run])
             for name in told.keys() & info.keys():
                 told[name][run], masks[f"_{name}"][run] = info[name], True
+        if not masks[f"_{INSTEAD}"].any():
+            del told[INSTEAD], masks[f"_{INSTEAD}"]
         flags = self._terminated.copy(), self._truncated.copy()
         return self._observations.copy(), rewards, *flags, {**told, **masks}
 

@@ -1,5 +1,6 @@
 """``mc-nested train``: begin a training, or resume one."""
 
+from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Annotated
@@ -8,6 +9,7 @@ import typer
 
 from mc_nested.arena.action import Cell
 from mc_nested.arena.cooperative.team import MOST_BUILDERS, Team, spread_starts
+from mc_nested.arena.demonstration import Demonstration
 from mc_nested.arena.scenario import Scenario
 from mc_nested.arena.scenario_file import shipped_scenarios, table_of
 from mc_nested.cli.cluster_options import InsecureOption, KeysOption
@@ -35,6 +37,7 @@ from mc_nested.cli.options import (
 )
 from mc_nested.cli.output import JsonOption, Output, QuietOption, prints
 from mc_nested.cli.output_folder import output_folder
+from mc_nested.cli.recordings import recording_path
 from mc_nested.cli.serve import keys as make_keys
 from mc_nested.cli.serve import serve
 from mc_nested.cli.training_end import TrainingResult
@@ -43,12 +46,14 @@ from mc_nested.cli.view import ViewOption
 from mc_nested.errors import UserError
 from mc_nested.learn.agents import AGENT_SPECS
 from mc_nested.learn.builders import NETWORKS, Networks
+from mc_nested.learn.dqn.engines import OBJECTIVES, SCREEN
 from mc_nested.learn.objectives.weights import agent_of, shipped_weights
 from mc_nested.learn.preset import MOST, Preset, load_preset
 from mc_nested.learn.runs.folder_lock import folder_lock
 from mc_nested.learn.runs.run_config import RunConfig, TeamTable
 from mc_nested.learn.runs.run_folder import RunFolder
 from mc_nested.learn.unknown_design import ANY_DESIGN, playing
+from mc_nested.live.recording.demonstrations import demonstrations_in
 from sim.worlds import Backend, check_window
 
 BESIDE_RESUME = (
@@ -66,7 +71,17 @@ BESIDE_RESUME = (
 )
 """The options that a run can be resumed with; all others are in its config.toml."""
 
-NOT_UNKNOWN = ("--builders", "--start", "--networks", "--games", "--from", "--engine", "--device", "--states")
+NOT_UNKNOWN = (
+    "--builders",
+    "--start",
+    "--networks",
+    "--games",
+    "--from",
+    "--from-recording",
+    "--engine",
+    "--device",
+    "--states",
+)
 """The options that don't go with --design-unknown."""
 
 BUILDERS = 2
@@ -147,6 +162,10 @@ def train(  # noqa: PLR0913 - a Typer verb: a parameter for each option
             autocompletion=complete_runs,
         ),
     ] = None,
+    from_recording: Annotated[
+        list[Path] | None,
+        typer.Option(metavar="REC", help="learn from a recording's episodes first, of a person's build; repeatable"),
+    ] = None,
     out: Annotated[
         Path | None,
         typer.Option(metavar="DIR", help="a new or empty folder for the run", show_default="runs/DESIGN-AGENT-DATE"),
@@ -203,9 +222,10 @@ def train(  # noqa: PLR0913 - a Typer verb: a parameter for each option
         team=team,
         design_unknown=design_unknown,
     )
+    shown = _shown(from_recording or [], config, design)
     who = f"{len(team.starts)}-builders" if team else config.agent
     with output_folder(out, f"{design.name}-{who}") as path:
-        run_training(RunFolder.new(path, config), False, how, begin_from)
+        run_training(RunFolder.new(path, config), False, how, begin_from, shown)
 
 
 app.command()(serve)
@@ -232,6 +252,20 @@ def _check_unknown(context: typer.Context, preset: str, agent: str, scenario: Sc
     if scenario.parts:  # what a cell pays would depend on the part
         raise UserError(f"--design-unknown knows no parts, and {scenario.name} has some: take another design")
     agent_of(shipped_weights(), scenario)  # what can't be used is said before there is a folder
+
+
+def _shown(recordings: Sequence[Path], config: RunConfig, scenario: Scenario) -> list[Demonstration]:
+    """Return the episodes of recordings, and print a line about each; raise UserError if they can't be learnt from."""
+    if recordings and config.team:
+        raise UserError("--from-recording is for one builder: leave out --builders, --start and --networks")
+    if recordings and config.preset.states in (SCREEN, OBJECTIVES):
+        raise UserError(f"--from-recording doesn't go with states {config.preset.states!r}: take another --preset")
+    shown = list[Demonstration]()
+    for recording in recordings:
+        found, said = demonstrations_in(recording_path(recording), scenario)
+        typer.echo(said, err=True)
+        shown += found
+    return shown
 
 
 def _team(scenario: Scenario, builders: int | None, starts: list[str] | None, networks: str | None) -> TeamTable | None:

@@ -80,6 +80,7 @@ class TrainingResult:
     episodes_to_optimum: Annotated[Sequence[int | None], "training episodes until each trial was at the optimum"]
     played_to_optimum: Annotated[Sequence[object], "episodes and steps until then, greedy ones too"]
     episodes_done: Annotated[Sequence[int], "of each trial"]
+    demonstrated: Annotated[Sequence[int], "of these, in how many a person acted, or a recording was learnt from"]
     env_steps: Annotated[int, "of training episodes"]
     evaluation_steps: Annotated[int, "of greedy episodes"]
     updates: Annotated[int, "of all networks"]
@@ -99,6 +100,8 @@ def say_end(output: Output, path: Path, config: RunConfig, summary: Mapping[str,
         reached = ", ".join("never" if done is None else f"{done}" for done in summary["episodes_to_optimum"])
         played = ", ".join("never" if each is None else f"{each['episodes']}" for each in summary["played_to_optimum"])
         lines.append(f"episodes to the optimum: {reached}; with the greedy ones: {played}")
+    if any(summary["demonstrated"]):
+        lines.append(f"demonstrated episodes among these: {', '.join(map(str, summary['demonstrated']))}")
     scores = ", ".join(f"{score:g}" for score in summary["final_scores"])
     if config.backend == "virtual":
         minutes = sum(summary["live"]["game_s"]) / 60

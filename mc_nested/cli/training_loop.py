@@ -1,13 +1,14 @@
 """A training as the command line runs it: begun or resumed, played and saved until its end, drawn and printed."""
 
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
 from mc_nested.arena.cooperative.team_env import TeamVectorEnv
+from mc_nested.arena.demonstration import Demonstration
 from mc_nested.arena.game import PlayLog
 from mc_nested.arena.vector import ArenaVectorEnv
 from mc_nested.cli.games_at_play import GamesAtPlay, games_at_play
@@ -23,6 +24,7 @@ from mc_nested.learn.runs.earlier_run import EarlierRun, earlier_run
 from mc_nested.learn.runs.run_folder import RunFolder
 from mc_nested.learn.trainer import Trainer
 from mc_nested.learn.training import Training
+from mc_nested.learn.whole_episode import as_seen
 from mc_nested.live.action_log import FailureBudget
 from mc_nested.live.input.stops import Takeover
 from mc_nested.live.session import Opening
@@ -174,8 +176,17 @@ class HowToRun:
     games: SchedulerAddress | None = None
 
 
-def run_training(folder: RunFolder, resumed: bool, how: HowToRun, begin_from: Path | None = None) -> None:
-    """Train until the run is finished or somebody stops it; save it on the way and at the end."""
+def run_training(
+    folder: RunFolder,
+    resumed: bool,
+    how: HowToRun,
+    begin_from: Path | None = None,
+    shown: Sequence[Demonstration] = (),
+) -> None:
+    """Train until the run is finished or somebody stops it; save it on the way and at the end.
+
+    A new training begins from an earlier run, and learns from the episodes that were ``shown``.
+    """
     config, output, path = folder.config, how.output, folder.path
     earlier = earlier_run(begin_from, folder) if begin_from else None
     began = time.monotonic() - (folder.wall_s_so_far() if resumed else 0.0)
@@ -194,7 +205,7 @@ def run_training(folder: RunFolder, resumed: bool, how: HowToRun, begin_from: Pa
             else own_player(folder, opening, publisher)
         )
         with opened as player:
-            begin_or_resume(folder, player.training, earlier, resumed)
+            begin_or_resume(folder, player.training, earlier, shown, resumed)
             if not resumed and Backend(config.backend) is Backend.LIVE and not how.games:
                 expectation = expected(config.preset, folder.scenario, stop_at_optimum=config.stop_at_optimum)
                 output.note(expectation.line(folder.scenario))
@@ -214,8 +225,10 @@ def run_training(folder: RunFolder, resumed: bool, how: HowToRun, begin_from: Pa
     say_end(output, path, config, summary)
 
 
-def begin_or_resume(folder: RunFolder, trainer: Training, earlier: EarlierRun | None, resumed: bool) -> None:
-    """Let the trainer go on from the folder's checkpoint; otherwise from an earlier run, if any, in a new folder.
+def begin_or_resume(
+    folder: RunFolder, trainer: Training, earlier: EarlierRun | None, shown: Sequence[Demonstration], resumed: bool
+) -> None:
+    """Let the trainer go on from the folder's checkpoint; otherwise begin in a new folder, with what it is given.
 
     Raise RunError as ``RunFolder`` and ``EarlierRun`` raise it.
     """
@@ -224,6 +237,9 @@ def begin_or_resume(folder: RunFolder, trainer: Training, earlier: EarlierRun | 
         return
     if earlier:
         earlier.begin(trainer)
+    for each in shown:
+        trainer.learn_from(as_seen(trainer.agent, folder.scenario, each))
+    if earlier or shown:
         folder.save_before_all(trainer)
     folder.begin()
 

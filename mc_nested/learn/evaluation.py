@@ -11,6 +11,7 @@ from gymnasium.vector import VectorEnv
 from mc_nested.arena.action import Action, Cell
 from mc_nested.arena.env import ArenaEnv, step_in
 from mc_nested.arena.scenario import Scenario
+from mc_nested.arena.vector import INSTEAD, really_done
 from mc_nested.arrays import Int64s
 from mc_nested.learn.agents import Agent
 from mc_nested.learn.foresight import announce
@@ -63,9 +64,9 @@ def play_greedily(
         announce(env, agent, takes, materials, never, of_builders, running)
         observations, _, terminated, truncated, info = env.step(takes)
         in_hand = materials if agent.main else agent.chosen_materials(observations[first])
-        is_last, scores = info["_score"][first], info["score"][first]
+        is_last, scores, done = info["_score"][first], info["score"][first], really_done(actions, info)
         for run in np.flatnonzero(running):
-            episodes[run].actions.append(int(actions[run * builders]))
+            episodes[run].actions.append(int(done[run * builders]))
             episodes[run].materials.append(int(in_hand[run]))
             if is_last[run]:
                 episodes[run].score = float(scores[run])
@@ -135,8 +136,8 @@ def take_steps(
     for (action, in_hand), following, objective in steps:
         show(objective)
         env.announce(following and step_in(scenario, *following))
-        _, _, terminated, truncated, _ = env.step(step_in(scenario, action, in_hand))
-        episode.actions.append(int(action))
+        _, _, terminated, truncated, info = env.step(step_in(scenario, action, in_hand))
+        episode.actions.append(int(info.get(INSTEAD, action)))
         episode.materials.append(in_hand)
         after_step()
         if terminated or truncated:

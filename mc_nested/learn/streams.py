@@ -24,6 +24,7 @@ class Purpose(IntEnum):
     CHOICES = 4  # the main agent's choice within an episode, after a tick
     PLANS = 5  # the choices in an episode that a game plays by itself
     EPISODES = 6  # the batches that are learnt from after such an episode was played
+    DEMONSTRATIONS = 7  # the batches that are learnt from after an episode was demonstrated at a tick
 
 
 def stream(purpose: Purpose, seed: int, run: int, *number: int) -> np.random.Generator:

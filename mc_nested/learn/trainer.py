@@ -1,7 +1,9 @@
 """Training R runs of an agent, one tick at a time (paper, Algorithm 1).
 
 A tick is one step of every run that isn't finished: choose, step, store, update. Every run is in an episode of its own:
-a training episode, or a greedy evaluation, which isn't counted, stored in a replay or updated on. Where builders share
+a training episode, or a greedy evaluation, which isn't counted, stored in a replay or updated on. Where a person acts
+instead of the agent, what they did is learnt from, and a greedy evaluation is a training episode from there on: the
+policy is evaluated at its next turn. Where builders share
 a run's arena, all of them act in a tick, and each is updated. What is learned from a step, and what happens
 before an episode, is the preset's practice (practice.py). The trainer sees the arenas only as a gymnasium VectorEnv
 with autoreset disabled, so a simulated and a live game look the same to it. The arenas themselves say whether episodes
@@ -18,7 +20,7 @@ from numpy.typing import NDArray
 
 from mc_nested.arena.env import blank_observations
 from mc_nested.arena.scenario import Scenario
-from mc_nested.arena.vector import foresees, resumable_arenas
+from mc_nested.arena.vector import INSTEAD, foresees, really_done, resumable_arenas
 from mc_nested.arrays import Arrays, Bools, Float64s, Int64s, copied, named_for, part_of
 from mc_nested.learn.agents import Agent
 from mc_nested.learn.choices import ChoiceStep
@@ -42,6 +44,8 @@ class _Episodes:
     steps_in_episode: Int64s
     between_episodes: Bools
     evaluating: Bools
+    by_hand: Bools
+    """Whether a person has acted in it."""
 
 
 class Trainer(Training):
@@ -82,6 +86,7 @@ class Trainer(Training):
             steps_in_episode=np.zeros(runs, dtype=np.int64),
             between_episodes=np.ones(runs, dtype=np.bool_),
             evaluating=np.zeros(runs, dtype=np.bool_),
+            by_hand=np.zeros(runs, dtype=np.bool_),
         )
 
     def tick(self) -> None:
@@ -103,6 +108,12 @@ class Trainer(Training):
             self._announce(takes, training)
         observations, rewards, terminated, truncated, info = self._env.step(takes)
         first = self._first_builders
+        if INSTEAD in info:
+            actions, by_hand = really_done(actions, info), info[f"_{INSTEAD}"]
+            now.by_hand |= by_hand
+            now.evaluating &= ~by_hand
+            training = running & ~now.evaluating
+            learning = training.nonzero()[0]
         ended, scores = (terminated | truncated)[first] & running, info["score"][first]
         due = info["chooses"] & ~ended if "chooses" in info else None
         step = ChoiceStep(observations[first], info.get("earned", scores), ended, due, main_draws, self.ticks)
@@ -161,7 +172,7 @@ class Trainer(Training):
         if len(begins) == 1 and self._resumable is None:
             self._rollback = EpisodeRollback.of(self.agent, self.practice)
         self.practice.begin(runs, practice)
-        now.steps_in_episode[runs] = 0
+        now.steps_in_episode[runs], now.by_hand[runs] = 0, False
         now.between_episodes &= ~begins
 
     def _announce(self, takes: Int64s, training: Bools) -> None:
@@ -179,6 +190,7 @@ class Trainer(Training):
         if not len(runs):
             return
         now = self._episodes
+        self.demonstrated[runs] += now.by_hand[runs]
         self._count_episodes(runs, scores, now.materials, now.steps_in_episode, self.epsilon)
         self._choices.learn(runs, now.materials, step)
 

@@ -22,14 +22,13 @@ from mc_nested.arena.scenario import Scenario
 from mc_nested.arrays import Arrays, Int64s, copied
 from mc_nested.errors import PresetError
 from mc_nested.learn.agents import Agent
-from mc_nested.learn.choices import ChoiceStep
 from mc_nested.learn.episode_log import EvaluationRow
 from mc_nested.learn.games.episode import EpisodeOut, EpisodePlan, EpisodesOut, PlayedEpisode
 from mc_nested.learn.learner import CHOICE_NUMBERS
-from mc_nested.learn.practice import Step
 from mc_nested.learn.preset import Preset
 from mc_nested.learn.streams import Purpose, stream
 from mc_nested.learn.training import Training
+from mc_nested.learn.whole_episode import WholeEpisode
 
 PROCESSES = 1 << 62
 """Names to draw from, so many that no two of a training's processes draw the same."""
@@ -64,7 +63,6 @@ class GamesTrainer(Training):
         check_games(scenario, preset)
         super().__init__([scenario], agent, preset, seed, stop_at_optimum)
         self._step_limit = scenario.step_limit
-        self._seed = seed
         self._planned = 0
         self._process = secrets.randbelow(PROCESSES)
         self._out = EpisodesOut()
@@ -118,7 +116,6 @@ class GamesTrainer(Training):
             return False
         materials = materials_of(self.agent, played, out.plan.material)
         self._learn(out, played, materials)
-        self.ticks += played.steps
         end = self._end_evaluation if out.plan.greedy else self._end_training_episode
         end(out, played, int(materials[-1]))
         return True
@@ -178,24 +175,10 @@ class GamesTrainer(Training):
     def _learn(self, out: EpisodeOut, played: PlayedEpisode, materials: Int64s) -> None:
         """Learn from the episode as if it were played now, step by step; nothing is stored of an evaluation."""
         random = stream(Purpose.EPISODES, self._seed, self.agent.runs[0], out.plan.number)
-        batch, seen = self.preset.update.batch, played.observations
-        states = self.agent.low_level_states(seen, materials)
-        draws = random.random((played.steps, 1, self.preset.updates_a_step * batch))
-        terminated = np.zeros(played.steps, dtype=np.bool_)
-        terminated[-1] = played.terminated
-        learning, running = RUN[:0] if out.plan.greedy else RUN, np.ones(1, dtype=np.bool_)
-        self.practice.begin(RUN, np.zeros((1, self.practice.numbers)))
-        for at in range(played.steps):
-            here, after = slice(at, at + 1), slice(at + 1, at + 2)
-            done = played.actions[here], played.rewards[here], seen[after], materials[after], terminated[here]
-            self.practice.learn(
-                Step(learning, running, seen[here], materials[here], states[here], *done, draws=draws[at])
-            )
-        score = np.array([played.score])
-        self.practice.end(RUN, materials[-1:], score)
-        of_choice = random.random((1, batch))
-        tick = self.ticks + played.steps
-        self._choices.learn(learning, materials[:1], ChoiceStep(seen[-1:], score, running, None, of_choice, tick))
+        done = played.observations, materials, played.actions, played.rewards
+        earned, never_due = np.full(played.steps, played.score), np.zeros(played.steps, dtype=np.bool_)
+        episode = WholeEpisode(*done, earned, never_due, played.terminated)
+        self._learn_whole(episode, [random], RUN[:0] if out.plan.greedy else RUN)
 
 
 def materials_of(agent: Agent, played: PlayedEpisode, planned: int) -> Int64s:

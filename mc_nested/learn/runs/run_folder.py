@@ -238,6 +238,7 @@ def summarise(config: RunConfig, scenario: Scenario, trainer: Training, wall_s: 
         "episodes_to_optimum": firsts,
         "played_to_optimum": [_played_until(trainer, trial, first) for trial, first in enumerate(firsts)],
         "episodes_done": [int(done) for done in trainer.episodes_done],
+        "demonstrated": [int(shown) for shown in trainer.demonstrated],
         "env_steps": trainer.env_steps,
         "evaluation_steps": trainer.evaluation_steps,
         "updates": trainer.agent.updates,

@@ -20,7 +20,7 @@ from tests.learn.imagination.made_games import BENT, SMALL, TWO
 from tests.learn.made_trainings import finish as finished
 from tests.learn.test_training_beside_a_live_game import ENOUGH, Rounds, Slow
 
-OF_THE_ARENA = {"observations", "materials", "steps_in_episode", "between_episodes", "evaluating"}
+OF_THE_ARENA = {"observations", "materials", "steps_in_episode", "between_episodes", "evaluating", "by_hand"}
 """Where a trainer is in its episode, which a learner leaves to its games."""
 
 
