@@ -27,6 +27,7 @@ BENCHES = {
     "learning": "updates a second, beside loops of a single run",
     "any-design": "how many designs the shipped networks build at the first try",
     "costs": "seconds that the paper's three agents train, by turns",
+    "teach": "episodes to the optimum, with a person's build to learn from and without",
     "game-time": "minutes of game time from scratch to the optimum, on the virtual client",
 }
 """Each is a module of scripts/benches."""

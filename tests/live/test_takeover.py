@@ -22,7 +22,7 @@ from mc_nested.live.live_game import LiveGame
 from mc_nested.live.profile.tables import GameVersion, Profile, WorldTable
 from sim.client.client import VirtualClient
 from sim.client.game.screens import ScreenName
-from tests.live.person import REST_S, Hands, Script, clumsy
+from scripts.benches.person import REST_S, Hands, Script, clumsy
 from tests.sim.client.playing import arena_of, screen_of, world_in
 
 DIAMOND = load_scenario("diamond")

@@ -26,7 +26,7 @@ from mc_nested.live.vision.font import font_of
 from mc_nested.live.vision.game_screen import WindowScreen
 from sim.client.client import VirtualClient
 from sim.client.drawing.letters import drawn_atlas
-from tests.live.person import Hands
+from scripts.benches.person import Hands
 
 STEPS_AN_EPISODE = 25
 FONT = font_of(drawn_atlas())

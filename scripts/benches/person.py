@@ -1,4 +1,4 @@
-"""Hands: a person at the virtual client's own keyboard and mouse, for tests of taking over."""
+"""Hands: a person at the virtual client's own keyboard and mouse, for measuring and testing what they teach."""
 
 from collections.abc import Callable, Iterable, Iterator
 
