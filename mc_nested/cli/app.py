@@ -31,6 +31,7 @@ VERBS = (
     "calibrate",
     "profiles",
     "doctor",
+    "try-it",
     "rehearse",
     "recordings",
     "replay",
@@ -68,11 +69,12 @@ def app_for(words: Sequence[str]) -> TyperCommand | TyperGroup:
     app.callback(invoke_without_command=True)(version)
     named = words[:1] if words and words[0] in (*VERBS, *HIDDEN) else [*VERBS, *HIDDEN]
     for verb in named:
-        module = importlib.import_module(f"mc_nested.cli.{HIDDEN.get(verb, verb)}")
+        name = verb.replace("-", "_")
+        module = importlib.import_module(f"mc_nested.cli.{HIDDEN.get(verb, name)}")
         if verb not in HIDDEN and hasattr(module, "app"):  # verbs of its own
             app.add_typer(module.app, name=verb)
         else:
-            app.command(verb, hidden=verb in HIDDEN)(getattr(module, verb))
+            app.command(verb, hidden=verb in HIDDEN)(getattr(module, name))
     command = cast("TyperGroup", typer.main.get_command(app))
     command.commands = {verb: command.commands[verb] for verb in named}  # Typer puts those with verbs of their own last
     _end_help_with_json_fields(command)
