@@ -41,6 +41,9 @@ class Info(TypedDict, total=False):
     placed: Cell
     """Where a block landed; not there if none did."""
 
+    instead: int
+    """The action that a person did in place of the one asked for; not there if nobody did."""
+
     score: float
     """The episode's score, the main agent's r_M; there on the last step alone."""
 
@@ -167,6 +170,8 @@ class ArenaEnv(gymnasium.Env[Observation, Any]):
         info = self._info()
         if outcome.placed is not None:
             info["placed"] = outcome.placed
+        if outcome.instead is not None:
+            info["instead"] = int(outcome.instead)
         self._count(info, outcome.placed)
         return self._observation(), reward, terminated, truncated, dict(info)
 

@@ -90,6 +90,7 @@ class SingleAgentVectorEnv(VectorWrapper):
         chooses = first & (self._of_first_builder(actions) < self._materials)
         acts = running & ~first & (actions >= self._materials)
         rewards = np.zeros(self.num_envs)
+        within: dict[str, Any] = {}
         if chooses.any():
             materials = self._of_first_builder(actions)
             self.env.reset(options={"reset_mask": chooses, "material": np.where(chooses, materials, 0)})
@@ -103,7 +104,7 @@ class SingleAgentVectorEnv(VectorWrapper):
             self._chosen[takes] = actions[takes] + 1
             self._tally.take(takes, actions)
         if acts.any():
-            observations, earned, terminated = self._step_within(acts, actions)
+            observations, earned, terminated, within = self._step_within(acts, actions)
             seen = running & ~first  # where another builder acts, the blocks left change
             self._observations[seen] = observations[seen]
             rewards[acts] = earned[acts]
@@ -119,6 +120,8 @@ class SingleAgentVectorEnv(VectorWrapper):
             self._score = np.where(by_block, self._tally.total(ended), self._score)
             rewards = np.where(by_block, self._score - before, rewards)
         info = {"score": np.where(ended, self._score, 0.0), "_score": ended}
+        if "instead" in within:
+            info |= {"instead": within["instead"] + self._materials, "_instead": within["_instead"]}
         return self._seen(), rewards, self._terminated.copy(), self._truncated.copy(), info
 
     def occupied(self) -> Bools:
@@ -126,16 +129,16 @@ class SingleAgentVectorEnv(VectorWrapper):
         within: Bools = self.env.occupied()  # type: ignore[attr-defined]  # both kinds of arenas have it
         return within & (self._chosen > 0)[:, None, None]
 
-    def _step_within(self, acts: Bools, actions: Int64s) -> tuple[Int64s, Float64s, Bools]:
+    def _step_within(self, acts: Bools, actions: Int64s) -> tuple[Int64s, Float64s, Bools, dict[str, Any]]:
         """Do a building action in each of the masked arenas within.
 
-        Return what they showed and earned, and which terminated.
+        Return what they showed and earned, which terminated, and what more they said.
         """
-        observations, earned, terminated, _, _ = self.env.step(self._taken_within(acts, actions))
+        observations, earned, terminated, _, info = self.env.step(self._taken_within(acts, actions))
         if self._tally:
             landed = acts & (observations[:, BLOCKS_LEFT] < self._observations[:, BLOCKS_LEFT])
             self._tally.lay(landed, observations[:, X], observations[:, Y] + 1)  # in front of the agent
-        return observations, earned, terminated
+        return observations, earned, terminated, info
 
     def _taken_within(self, acts: Bools, actions: Int64s) -> Int64s:
         """Return what the arenas within take of these actions, where the mask says so."""

@@ -121,7 +121,8 @@ class ArenaVectorEnv(VectorEnv[Int64s, Int64s, Any]):
     def step(self, actions: Int64s) -> tuple[Int64s, Float64s, Bools, Bools, dict[str, Any]]:
         """Do one action, or NO_ACTION, in every arena whose episode runs; ``info["score"]`` is r_M if ``_score``.
 
-        With parts, ``info`` says more (Info), each with its mask.
+        With parts, ``info`` says more (Info), each with its mask; and so does ``info["instead"]`` in a step in which a
+        person acted.
         """
         rewards = np.zeros(self.num_envs)
         told = {"score": np.zeros(self.num_envs)}
@@ -135,6 +136,9 @@ class ArenaVectorEnv(VectorEnv[Int64s, Int64s, Any]):
             self._observations[run], rewards[run], self._terminated[run], self._truncated[run], info = self.envs[
                 run
             ].step(takes[run])
+            if "instead" in info and "instead" not in told:
+                told["instead"] = np.zeros(self.num_envs, dtype=np.int64)
+                masks["_instead"] = np.zeros(self.num_envs, dtype=np.bool_)
             for name in told.keys() & info.keys():
                 told[name][run], masks[f"_{name}"][run] = info[name], True
         flags = self._terminated.copy(), self._truncated.copy()

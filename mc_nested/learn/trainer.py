@@ -1,11 +1,11 @@
 """Training R runs of an agent, one tick at a time (paper, Algorithm 1).
 
 A tick is one step of every run that isn't finished: choose, step, store, update. Every run is in an episode of its own:
-a training episode, or a greedy evaluation, which isn't counted, stored in a replay or updated on. Where builders share
-a run's arena, all of them act in a tick, and each is updated. What is learned from a step, and what happens
-before an episode, is the preset's practice (practice.py). The trainer sees the arenas only as a gymnasium VectorEnv
-with autoreset disabled, so a simulated and a live game look the same to it. The arenas themselves say whether episodes
-can be saved half-way.
+a training episode, or a greedy evaluation, which isn't counted, stored in a replay or updated on; one in which a
+person acted is played again. Where builders share a run's arena, all of them act in a tick, and each is updated. What
+is learned from a step, and what happens before an episode, is the preset's practice (practice.py). The trainer sees the
+arenas only as a gymnasium VectorEnv with autoreset disabled, so a simulated and a live game look the same to it. The
+arenas themselves say whether episodes can be saved half-way.
 """
 
 from collections.abc import Mapping, Sequence
@@ -42,6 +42,7 @@ class _Episodes:
     steps_in_episode: Int64s
     between_episodes: Bools
     evaluating: Bools
+    helped: Bools
 
 
 class Trainer(Training):
@@ -82,6 +83,7 @@ class Trainer(Training):
             steps_in_episode=np.zeros(runs, dtype=np.int64),
             between_episodes=np.ones(runs, dtype=np.bool_),
             evaluating=np.zeros(runs, dtype=np.bool_),
+            helped=np.zeros(runs, dtype=np.bool_),
         )
 
     def tick(self) -> None:
@@ -103,6 +105,9 @@ class Trainer(Training):
             self._announce(takes, training)
         observations, rewards, terminated, truncated, info = self._env.step(takes)
         first = self._first_builders
+        if "instead" in info:  # a person has taken over: what they did is learnt
+            actions = np.where(info["_instead"], info["instead"], actions)
+            now.helped |= info["_instead"][first]
         ended, scores = (terminated | truncated)[first] & running, info["score"][first]
         due = info["chooses"] & ~ended if "chooses" in info else None
         step = ChoiceStep(observations[first], info.get("earned", scores), ended, due, main_draws, self.ticks)
@@ -116,7 +121,7 @@ class Trainer(Training):
         if ended.any():
             self.practice.end(ended.nonzero()[0], chosen, scores)
             self._end_training_episodes((ended & training).nonzero()[0], scores, step)
-            self._end_evaluations((ended & now.evaluating).nonzero()[0], scores)
+            self._end_evaluations((ended & now.evaluating & ~now.helped).nonzero()[0], scores)
             now.between_episodes |= ended
         self.ticks += 1
 
@@ -161,7 +166,7 @@ class Trainer(Training):
         if len(begins) == 1 and self._resumable is None:
             self._rollback = EpisodeRollback.of(self.agent, self.practice)
         self.practice.begin(runs, practice)
-        now.steps_in_episode[runs] = 0
+        now.steps_in_episode[runs], now.helped[runs] = 0, False
         now.between_episodes &= ~begins
 
     def _announce(self, takes: Int64s, training: Bools) -> None:
