@@ -42,7 +42,6 @@ class _Episodes:
     steps_in_episode: Int64s
     between_episodes: Bools
     evaluating: Bools
-    helped: Bools
 
 
 class Trainer(Training):
@@ -83,8 +82,9 @@ class Trainer(Training):
             steps_in_episode=np.zeros(runs, dtype=np.int64),
             between_episodes=np.ones(runs, dtype=np.bool_),
             evaluating=np.zeros(runs, dtype=np.bool_),
-            helped=np.zeros(runs, dtype=np.bool_),
         )
+        # Not saved: an episode in which a person acted is a running game's, which starts over.
+        self._helped = np.zeros(runs, dtype=np.bool_)
 
     def tick(self) -> None:
         """Do one step of every run that isn't finished.
@@ -107,7 +107,7 @@ class Trainer(Training):
         first = self._first_builders
         if "instead" in info:  # a person has taken over: what they did is learnt
             actions = np.where(info["_instead"], info["instead"], actions)
-            now.helped |= info["_instead"][first]
+            self._helped |= info["_instead"][first]
         ended, scores = (terminated | truncated)[first] & running, info["score"][first]
         due = info["chooses"] & ~ended if "chooses" in info else None
         step = ChoiceStep(observations[first], info.get("earned", scores), ended, due, main_draws, self.ticks)
@@ -121,7 +121,7 @@ class Trainer(Training):
         if ended.any():
             self.practice.end(ended.nonzero()[0], chosen, scores)
             self._end_training_episodes((ended & training).nonzero()[0], scores, step)
-            self._end_evaluations((ended & now.evaluating & ~now.helped).nonzero()[0], scores)
+            self._end_evaluations((ended & now.evaluating & ~self._helped).nonzero()[0], scores)
             now.between_episodes |= ended
         self.ticks += 1
 
@@ -166,7 +166,7 @@ class Trainer(Training):
         if len(begins) == 1 and self._resumable is None:
             self._rollback = EpisodeRollback.of(self.agent, self.practice)
         self.practice.begin(runs, practice)
-        now.steps_in_episode[runs], now.helped[runs] = 0, False
+        now.steps_in_episode[runs], self._helped[runs] = 0, False
         now.between_episodes &= ~begins
 
     def _announce(self, takes: Int64s, training: Bools) -> None:
