@@ -8,7 +8,7 @@ lays block after block. The paper has three agents, which differ in who decides 
 
 nested        a main agent sees (x, y, b) and chooses; one nested agent sees (x, y, b, choice) and builds
 hierarchical  a top agent sees (x, y, b) and chooses, and with the material one of two low-level agents, which builds
-single        one agent does all of it: two of its ten actions choose, the others build
+single        one agent sees (x, y, b, choice) and does both: two of its ten actions choose, the others build
 
 b is how many blocks are left. Read it from the top: the task, the learner, the agents, Algorithm 1. Several trials
 train side by side and share nothing: an array has a row for each of them.
@@ -16,7 +16,6 @@ train side by side and share nothing: an array has a row for each of them.
 
 import argparse
 import sys
-import time
 from dataclasses import dataclass, fields
 from itertools import pairwise
 from typing import Any, NamedTuple
@@ -32,362 +31,298 @@ from torch.nn.functional import huber_loss
 
 Bools, Floats, Ints = NDArray[np.bool_], NDArray[np.float64], NDArray[np.int64]
 
-# ---------------------------------------------------------------------------------------------------------- the task
+# ---------------------------------------------------------------------------------------------------------- The task
 
-SIZE, STEP_LIMIT, START = 15, 60, (7, 14)
-"""Cells along a side; the steps of the longest episode; the cell (x, y) where each begins, at the far edge."""
+SIZE, START, STEP_LIMIT = 15, (7, 14), 60
+"""Cells along a side; the cell (x, y) where an episode begins, at the far edge; the most steps that it takes."""
 
-WORTH = {"wood": -5.0, "stone": 10.0}
-"""What each material adds to the score of an episode: p. Each block on the design adds 1."""
+WORTH = np.array([-5.0, 10.0])
+"""What wood and stone add to an episode's score. Each block on the design adds 1."""
 
 MOVES = np.array([(0, 1), (0, -1), (-1, 0), (1, 0), (0, 1), (-1, 0), (1, 0), (0, -1)])
-"""Where each action goes, (right, forward): F, B, L, R; then F+D, L+D, R+D, B+D, which place a block afterwards."""
+"""Where each action goes, (right, forward): F, B, L, R, and F+D, L+D, R+D, B+D, which then place a block in front."""
 
-FIRST_TO_PLACE = 4
-NO_MATERIAL = -1
+FIRST_TO_PLACE, NOTHING_CHOSEN = 4, -1
 
-DESIGNS: dict[str, list[tuple[int, int]]] = {
+DESIGNS = {
     "line": [(7, y) for y in range(2, 13)],
     "zigzag": list(zip((7, 8, 9, 8, 7, 6, 5, 6, 7, 8, 9), range(2, 13), strict=True)),
     "diamond": [(x, y) for x in range(SIZE) for y in range(SIZE) if abs(x - 7) + abs(y - 7) == 4],
 }
-"""The cells to build on."""
+"""The cells to build on. There are as many blocks."""
 
 
 class Arenas(VectorEnv[Ints, Ints, Any]):
-    """Arenas side by side. The reward is 1 for a block on the design; ``info["score"]`` is the episode's so far.
+    """Arenas side by side. A block on the design is rewarded by 1; ``info["score"]`` is the episode's so far.
 
-    Args:
-        design: the cells to build on.
-        count: how many arenas.
-        chooses: for the single agent: actions 0 and 1 choose a material, and earn what it is worth; 2 to 9 build. Its
-            observation (x, y, b, m) has m = 0 until it has chosen, then 1 or 2.
+    With ``chooses`` they are the single agent's: actions 0 and 1 choose a material and earn what it is worth, 2 to 9
+    build, and an observation (x, y, b, m) has m = 0 until the choice, then 1 or 2.
     """
 
-    def __init__(self, design: list[tuple[int, int]], count: int, chooses: bool = False) -> None:
+    def __init__(self, design: str, count: int, chooses: bool = False) -> None:
         self.metadata = {"autoreset_mode": AutoresetMode.DISABLED}
-        self.num_envs, self.chooses, self.blocks = count, chooses, len(design)
-        self.choices = len(WORTH) if chooses else 0
-        self.highest = np.array([SIZE - 1, SIZE - 1, self.blocks, *[len(WORTH)] * chooses])
+        self.num_envs, self.chooses, self.blocks = count, chooses, len(DESIGNS[design])
+        self.highest = np.array([SIZE - 1, SIZE - 1, self.blocks, len(WORTH)])[: 3 + chooses]
         self.single_observation_space: Any = MultiDiscrete(self.highest + 1)
-        self.single_action_space: Any = Discrete(self.choices + len(MOVES))
+        self.single_action_space: Any = Discrete(len(MOVES) + len(WORTH) * chooses)
         self.observation_space = batch_space(self.single_observation_space, count)
         self.action_space = batch_space(self.single_action_space, count)
-        self._arena = np.arange(count)
-        self._design = np.zeros((SIZE + 2, SIZE + 2), np.bool_)  # cells from 1 on, as in ``solid``
-        self._design[tuple(np.array(design).T + 1)] = True
-        self.solid = np.ones((count, SIZE + 2, SIZE + 2), np.bool_)  # blocks, and a rim: an edge stops as a block does
-        self._cell = np.ones((count, 2), np.int64)
-        self._left, self._steps = np.zeros((2, count), np.int64)
-        self._material = np.full(count, NO_MATERIAL)
-        self._score, self._running = np.zeros(count), np.zeros(count, np.bool_)
+        # Blocks, and a rim around the floor, since an edge stops whatever a block stops: cells count from 1 in here.
+        self.solid = np.ones((count, SIZE + 2, SIZE + 2), np.bool_)
+        self._design = np.zeros((SIZE + 2, SIZE + 2), np.bool_)
+        self._design[tuple(np.transpose(DESIGNS[design]) + 1)] = True
+        self._x, self._y, self._left, self._steps, self._material = np.ones((5, count), np.int64)
+        self._score, self._running, self._all = np.zeros(count), np.zeros(count, np.bool_), np.arange(count)
 
     def reset(self, *, seed: Any = None, options: dict[str, Any] | None = None) -> tuple[Ints, dict[str, Any]]:  # noqa: ARG002
-        """Begin an episode in the arenas of ``options["reset_mask"]``; ``options["material"]`` is every arena's."""
-        begins = options["reset_mask"] if options else np.ones(self.num_envs, np.bool_)
-        self.solid[begins, 1:-1, 1:-1] = False
-        self._cell[begins] = np.array(START) + 1
-        self._left[begins], self._steps[begins], self._running[begins] = self.blocks, 0, True
-        self._material[begins], self._score[begins] = NO_MATERIAL, 0.0
-        if options and not self.chooses:
-            self._take(begins, options["material"])
+        """Begin episodes where ``options["reset_mask"]`` says so, with what is chosen in ``options["material"]``."""
+        given = options or {}
+        mask, material = given.get("reset_mask", self._all >= 0), given.get("material", np.zeros_like(self._all))
+        self.solid[mask, 1:-1, 1:-1] = False
+        self._x[mask], self._y[mask] = START[0] + 1, START[1] + 1
+        self._left[mask], self._steps[mask], self._running[mask] = self.blocks, 0, True
+        self._material[mask] = NOTHING_CHOSEN if self.chooses else material[mask]
+        self._score[mask] = 0 if self.chooses else WORTH[material[mask]]
         return self._seen(), {}
 
     def step(self, actions: Ints) -> tuple[Ints, Floats, Bools, Bools, dict[str, Any]]:
-        """Move, then place a block in front: where an episode is running."""
-        running, builds = self._running.copy(), actions - self.choices
-        first = running & (self._material == NO_MATERIAL) & self.chooses
-        takes, builds_now = first & (builds < 0), running & ~first & (builds >= 0)
-        rewards = self._take(takes, actions)
-
-        ahead = self._cell + MOVES[builds]
-        moves = builds_now & ~self.solid[self._arena, ahead[:, 0], ahead[:, 1]]
-        self._cell[moves] = ahead[moves]
-        x, y = self._cell.T + [[0], [1]]  # the cell in front: the agent always looks forward
-        lands = builds_now & (builds >= FIRST_TO_PLACE) & ~self.solid[self._arena, x, y]
-        self.solid[self._arena[lands], x[lands], y[lands]] = True
-        pays = lands & self._design[x, y]
-
+        """Move, then place a block in front, wherever an episode is running."""
+        building = actions - len(WORTH) * self.chooses  # below 0: a material
+        first = self._running & (self._material == NOTHING_CHOSEN)
+        choosing, acting = first & (building < 0), self._running & ~first & (building >= 0)
+        self._material[choosing] = actions[choosing]
+        x, y = self._x + MOVES[building, 0], self._y + MOVES[building, 1]
+        moves = acting & ~self.solid[self._all, x, y]
+        self._x[moves], self._y[moves] = x[moves], y[moves]
+        x, y = self._x, np.minimum(self._y + 1, SIZE + 1)  # the agent looks forward all the time
+        lands = acting & (building >= FIRST_TO_PLACE) & ~self.solid[self._all, x, y]
+        self.solid[self._all[lands], x[lands], y[lands]] = True
+        rewards = WORTH[self._material] * choosing + (lands & self._design[x, y])
+        self._score += rewards
         self._left -= lands
-        self._steps += running
-        self._score += pays
-        terminated = running & ((self._left == 0) | (first & ~takes))
-        truncated = running & ~terminated & (self._steps >= STEP_LIMIT)
+        self._steps += self._running
+        terminated = self._running & ((self._left == 0) | (first & ~choosing))
+        truncated = self._running & ~terminated & (self._steps >= STEP_LIMIT)
         self._running &= ~(terminated | truncated)
-        return self._seen(), rewards + pays, terminated, truncated, {"score": self._score.copy()}
-
-    def _take(self, where: Bools, materials: Ints) -> Floats:
-        self._material[where] = materials[where]
-        worth = np.array(list(WORTH.values()))[self._material] * where
-        self._score += worth
-        return worth
+        return self._seen(), rewards, terminated, truncated, {"score": self._score.copy()}
 
     def _seen(self) -> Ints:
-        material = [self._material + 1] * self.chooses
-        return np.column_stack((self._cell - 1, self._left, *material))
+        return np.stack((self._x - 1, self._y - 1, self._left, self._material + 1)[: 3 + self.chooses], axis=1)
 
 
-# ------------------------------------------------------------------------------------------------------ the learner
+# ------------------------------------------------------------------------------------------------------- The learner
 
 
 @dataclass(frozen=True)
 class Settings:
-    """What is trained, and how. P: of the paper; the others are chosen."""
+    """What is trained, and how. P: the paper's; all else is chosen."""
 
     agent: str = "nested"  # or hierarchical, or single
     design: str = "line"  # or zigzag, or diamond
     trials: int = 1  # independent trainings, side by side
     seed: int = 0  # of all random choices
-    episodes: int = 3000  # of each trial's training, P
-    evaluate_every: int = 30  # episodes from one greedy episode to the next, P
-    hidden: int = 32  # nodes in each of two hidden layers with tanh, P
-    batch: int = 32  # transitions of an update, P; also those that there must be before the first
-    replay: int = 1_000_000  # transitions kept at most, P
+    episodes: int = 3000  # P: of each trial
+    evaluate_every: int = 30  # P: episodes from one greedy episode to the next
+    hidden: int = 32  # P: nodes of each of two hidden layers, tanh
+    batch: int = 32  # P: transitions of an update; the first is made when there are so many
+    replay: int = 1_000_000  # P: transitions that are kept
     learning_rate: float = 1e-3
-    gamma: float = 0.95  # what a reward is worth a step later
+    gamma: float = 0.95  # a reward is worth so much a step earlier
     target_period: int = 500  # updates from one renewal of the target network to the next
-    main_floor: float = 0.01  # ε falls from 1 (P) to its floor: the main agent's is higher than the builder's (P),
-    main_share: float = 0.18  # and reached sooner (P): within this share of the episodes
-    floor: float = 0.001  # P
-    share: float = 0.6
+    floor: float = 0.001  # P: ε falls from 1 to so little,
+    share: float = 0.6  # within this share of the episodes;
+    main_floor: float = 0.01  # the main agent's stays higher
+    main_share: float = 0.18  # and falls faster (P)
 
 
 class Learners:
-    """Rows of double deep Q-learners that share nothing: parameters, optimiser and replay have a row for each.
+    """Double deep Q-learners in rows: each has parameters, an optimiser and a replay of its own.
 
-    Args:
-        rows: how many learners.
-        highest: of each number of a state; the lowest is 0.
-        actions: how many actions there are.
-        capacity: transitions that each keeps.
-        settings: the hyper-parameters.
-        random: makes all random choices.
+    Their states are whole numbers from 0 to ``highest``; a row keeps its last ``kept`` transitions.
     """
 
     def __init__(
-        self, rows: int, highest: Ints, actions: int, capacity: int, settings: Settings, random: torch.Generator
+        self, rows: int, highest: Ints, actions: int, kept: int, settings: Settings, random: torch.Generator
     ) -> None:
-        self.settings, self.random, self.actions = settings, random, actions
-        self.highest = torch.as_tensor(highest)
+        self.settings, self.actions, self.highest, self.random = settings, actions, torch.as_tensor(highest), random
         self.sizes = list(pairwise((len(highest), settings.hidden, settings.hidden, actions)))
-        layers = [(torch.rand(rows, (i + 1) * o, generator=random) * 2 - 1) / i**0.5 for i, o in self.sizes]
+        layers = [(2 * torch.rand(rows, (n + 1) * m, generator=self.random) - 1) / n**0.5 for n, m in self.sizes]
         self.online = torch.cat(layers, dim=1)
         self.target = self.online.clone()
-        self.moments = torch.zeros(2, *self.online.shape)  # Adam's: of the gradient, and of its square
-        self.updates, self.stored = torch.zeros(rows, dtype=torch.int64), torch.zeros(rows, dtype=torch.int64)
-        self.widths = [len(highest), len(highest), 1, 1, 1]  # s, s', action, reward, terminated
-        self.replay = torch.empty(rows, capacity, sum(self.widths))
+        self.mean, self.square = torch.zeros_like(self.online), torch.zeros_like(self.online)
+        self.updates, self.stored = torch.zeros(2, rows, dtype=torch.int64)
+        self.parts = [len(highest), 1, 1, len(highest), 1]  # s, action, reward, s', whether the episode terminated
+        self.replay = torch.empty(rows, min(kept, settings.replay), sum(self.parts))
 
-    def q_values(self, parameters: Tensor, states: Tensor) -> Tensor:
-        """Return what the networks (k, parameters) say of states (k, batch, width): (k, batch, actions)."""
-        values, start = states, 0
-        for i, o in self.sizes:
-            weights = parameters[:, start : start + i * o].view(-1, i, o)
-            bias = parameters[:, None, start + i * o : start + (i + 1) * o]
-            values = torch.baddbmm(bias, values.tanh() if start else values, weights)
-            start += (i + 1) * o
-        return values
+    def values(self, parameters: Tensor, states: Tensor) -> Tensor:
+        """Return Q of networks (k, parameters) in scaled states (k, batch, width), as (k, batch, actions)."""
+        for layer, (n, m) in enumerate(self.sizes):
+            weights, parameters = parameters.split([(n + 1) * m, parameters.shape[1] - (n + 1) * m], dim=1)
+            weights = weights.view(-1, n + 1, m)
+            states = torch.baddbmm(weights[:, -1:], states.tanh() if layer else states, weights[:, :-1])
+        return states
 
     def scaled(self, states: Ints) -> Tensor:
-        """Return each number of the states (k, width) scaled to [-1, 1]."""
+        """Return each number of the states (k, width) between -1 and 1."""
         return 2 * torch.as_tensor(states) / self.highest - 1
 
     def act(self, rows: Tensor, states: Ints, epsilon: Floats) -> Ints:
-        """Return ε-greedy actions (k,) of the named rows (k,) in states (k, width)."""
-        greedy = self.q_values(self.online[rows], self.scaled(states)[:, None]).argmax(-1)[:, 0]
-        explored = torch.randint(self.actions, greedy.shape, generator=self.random)
+        """Return ε-greedy actions (k,) of the named rows (k,)."""
+        with torch.no_grad():
+            greedy = self.values(self.online[rows], self.scaled(states)[:, None])[:, 0].argmax(1)
         explores = torch.rand(len(rows), generator=self.random) < torch.as_tensor(epsilon)
-        return torch.where(explores, explored, greedy).numpy()
+        return torch.where(explores, torch.randint(self.actions, greedy.shape, generator=self.random), greedy).numpy()
 
     def store(self, rows: Tensor, states: Ints, actions: Ints, rewards: Floats, following: Ints, over: Bools) -> None:
-        """Store a transition of each of the named rows (k,); the oldest is overwritten."""
-        parts = [self.scaled(states), self.scaled(following), *map(torch.as_tensor, (actions, rewards, over))]
-        together = torch.cat([part.view(len(rows), -1).float() for part in parts], dim=1)
-        self.replay[rows, self.stored[rows] % self.replay.shape[1]] = together
+        """Store one transition of each of the named rows (k,); the oldest makes room."""
+        action, reward, terminated = (torch.as_tensor(part)[:, None] for part in (actions, rewards, over))
+        whole = torch.cat((self.scaled(states), action, reward, self.scaled(following), terminated), dim=1)
+        self.replay[rows, self.stored[rows] % self.replay.shape[1]] = whole.float()
         self.stored[rows] += 1
 
     def learn(self, rows: Tensor) -> None:
-        """Update each of the named rows once, from a batch of its own, if it has one."""
+        """Update each of the named rows once, from a batch of its own, where there is one."""
         rows = rows[self.stored[rows] >= self.settings.batch]
-        if not len(rows):
-            return
-        kept = self.stored[rows].clamp(max=self.replay.shape[1])
-        drawn = (torch.rand(len(rows), self.settings.batch, generator=self.random) * kept[:, None]).long()
-        states, following, actions, rewards, over = self.replay[rows[:, None], drawn].split(self.widths, dim=-1)
-        online = self.online[rows].requires_grad_()
+        held = self.stored[rows, None].clamp(max=self.replay.shape[1])
+        drawn = (torch.rand(len(rows), self.settings.batch, generator=self.random) * held).long()
+        states, actions, rewards, following, over = self.replay[rows[:, None], drawn].split(self.parts, dim=-1)
+        parameters = self.online[rows].requires_grad_()
         with torch.no_grad():
-            aim = ddqn_target(
-                rewards,
-                over,
-                self.q_values(online, following),
-                self.q_values(self.target[rows], following),
-                self.settings.gamma,
-            )
-        chosen = self.q_values(online, states).gather(-1, actions.long())
-        loss = huber_loss(chosen, aim, reduction="none").mean((1, 2)).sum()  # a row's gradient is of its own loss
-        (gradient,) = torch.autograd.grad(loss, online)
-        self._step(rows, gradient)
-
-    def _step(self, rows: Tensor, gradient: Tensor) -> None:
-        """Take one step of Adam; rows that learn at different times have counts of their own."""
+            online, target = self.values(parameters, following), self.values(self.target[rows], following)
+            aims = ddqn_target(rewards, over, online, target, self.settings.gamma)
+        losses = huber_loss(self.values(parameters, states).gather(-1, actions.long()), aims, reduction="none")
+        (gradient,) = torch.autograd.grad(losses.mean(1).sum(), parameters)
+        # Adam, by hand: rows that learn at different times have made different numbers of updates.
         self.updates[rows] += 1
         count = self.updates[rows, None]
-        first = self.moments[0, rows].lerp(gradient, 1 - 0.9)
-        second = self.moments[1, rows].lerp(gradient**2, 1 - 0.999)
-        self.moments[0, rows], self.moments[1, rows] = first, second
-        scale = self.settings.learning_rate / (1 - 0.9**count)
-        self.online[rows] -= scale * first / ((second / (1 - 0.999**count)).sqrt() + 1e-8)
+        self.mean[rows] = mean = self.mean[rows].lerp(gradient, 0.1)
+        self.square[rows] = square = self.square[rows].lerp(gradient**2, 0.001)
+        step = mean / (1 - 0.9**count) / ((square / (1 - 0.999**count)).sqrt() + 1e-8)
+        self.online[rows] -= self.settings.learning_rate * step
         due = rows[self.updates[rows] % self.settings.target_period == 0]
         self.target[due] = self.online[due]
 
 
 def ddqn_target(rewards: Tensor, over: Tensor, online: Tensor, target: Tensor, gamma: float) -> Tensor:
-    """Return r + γ Q'(s', argmax Q(s', ·)), (…, 1): the online values Q choose, the target network's Q' are believed.
+    """Return r + γ Q'(s', argmax Q(s', ·)), (…, 1): the online network chooses, the target network says its value.
 
-    Rewards and ``over``, 1 where the episode has terminated, are (…, 1); the values of s' are (…, actions).
+    Rewards and ``over``, 1 where the episode terminated, are (…, 1); both networks' values of s' are (…, actions).
     """
-    best = online.argmax(-1, keepdim=True)
-    return rewards + gamma * (1 - over) * target.gather(-1, best)
+    return rewards + gamma * (1 - over) * target.gather(-1, online.argmax(-1, keepdim=True))
 
 
-# ------------------------------------------------------------------------------------------------------- the agents
+# -------------------------------------------------------------------------------------------------------- The agents
 
 
 class Agent:
-    """One of the paper's agents, in so many trials: which learner acts, and what it sees."""
+    """One of the paper's agents, in every trial: who acts, and what it sees."""
 
     def __init__(self, settings: Settings, arenas: Arenas) -> None:
+        self.kind, self.trials = settings.agent, torch.arange(arenas.num_envs)
+        self.start = np.tile([*START, arenas.blocks], (arenas.num_envs, 1))
         random = torch.Generator().manual_seed(settings.seed)
-        trials, steps = settings.trials, settings.episodes * STEP_LIMIT
-        self.kind, self.trials = settings.agent, torch.arange(trials)
-        self.start = np.tile([*START, arenas.blocks], (trials, 1))
-        seen, more = arenas.highest, [len(WORTH) - 1] * (self.kind == "nested")
-        rows = trials * (len(WORTH) if self.kind == "hierarchical" else 1)
-        actions = int(arenas.single_action_space.n)
-        self.main = Learners(trials, seen[:3], len(WORTH), min(settings.replay, settings.episodes), settings, random)
-        self.builder = Learners(
-            rows, np.append(seen, more).astype(np.int64), actions, min(settings.replay, steps), settings, random
-        )
-
-    def choose(self, epsilon: Floats) -> Ints:
-        """Return the main agent's materials, (trials,); the single agent's doesn't count: it chooses by its actions."""
-        return self.main.act(self.trials, self.start, epsilon)
-
-    def states(self, observations: Ints, materials: Ints) -> Ints:
-        """Return what the builder sees: to the nested agent's state the main agent's choice is appended."""
-        return np.column_stack((observations, materials)) if self.kind == "nested" else observations
+        self.main = Learners(arenas.num_envs, arenas.highest[:3], len(WORTH), settings.episodes, settings, random)
+        appended = np.full(self.kind == "nested", len(WORTH) - 1)
+        rows = arenas.num_envs * (len(WORTH) if self.kind == "hierarchical" else 1)
+        actions, steps = int(arenas.single_action_space.n), settings.episodes * STEP_LIMIT
+        self.builder = Learners(rows, np.append(arenas.highest, appended), actions, steps, settings, random)
 
     def rows(self, materials: Ints) -> Tensor:
-        """Return the builder's row that acts in each trial: a hierarchy has one for each material."""
+        """Return which of the builder's rows acts in each trial: a hierarchy has one for each material."""
         return self.trials * len(WORTH) + torch.as_tensor(materials) if self.kind == "hierarchical" else self.trials
 
-
-class Greedy(NamedTuple):
-    """A greedy episode of each trial: its score, its cells step by step (steps, trials, 2), and what was built."""
-
-    scores: Floats
-    path: Ints
-    built: Bools
+    def states(self, observations: Ints, materials: Ints) -> Ints:
+        """Return what the builder sees: the nested agent's state is s_N = [s_M, a_M]."""
+        return np.column_stack((observations, materials)) if self.kind == "nested" else observations
 
 
-def play(agent: Agent, arenas: Arenas) -> Greedy:
-    """Play an episode of each trial without exploration, and without learning from it."""
-    never = np.zeros(arenas.num_envs)
-    materials = agent.choose(never)
-    observations, _ = arenas.reset(options={"reset_mask": never == 0, "material": materials})
-    path = [observations[:, :2]]
+def play(agent: Agent, arenas: Arenas) -> Floats:
+    """Play one greedy episode of each trial, of which nothing is learnt; return the scores (trials,)."""
+    greedily = np.zeros(arenas.num_envs)
+    materials = agent.main.act(agent.trials, agent.start, greedily)
+    seen, _ = arenas.reset(options={"material": materials})
     for _ in range(STEP_LIMIT):
-        actions = agent.builder.act(agent.rows(materials), agent.states(observations, materials), never)
-        observations, _, _, _, info = arenas.step(actions)
-        path.append(observations[:, :2])
-    return Greedy(info["score"], np.stack(path), arenas.solid[:, 1:-1, 1:-1].copy())
+        actions = agent.builder.act(agent.rows(materials), agent.states(seen, materials), greedily)
+        seen, _, _, _, info = arenas.step(actions)
+    scores: Floats = info["score"]
+    return scores
 
 
-# ------------------------------------------------------------------------------------------------------ Algorithm 1
+# ------------------------------------------------------------------------------------------------------- Algorithm 1
 
 
 class Training(NamedTuple):
-    """What came of a training: greedy scores (trials, evaluations) after so many episodes (evaluations,)."""
+    """A training: its greedy scores (trials, evaluations) after so many episodes (evaluations,), and the agent."""
 
     episodes: Ints
     scores: Floats
     agent: Agent
 
 
-def epsilon_after(episodes: Ints, of: int, floor: float, share: float) -> Floats:
-    """Return ε after so many episodes: from 1 it falls to its floor over a share of them all."""
-    return 1.0 + (floor - 1.0) * np.minimum(episodes / (share * of), 1.0)
+def epsilon_after(done: Ints, episodes: int, floor: float, share: float) -> Floats:
+    """Return ε after so many of all episodes, in a row for each trial."""
+    return 1 + (floor - 1) * np.minimum(done / (share * episodes), 1)
 
 
 def train(settings: Settings, show: bool = False) -> Training:
-    """Train every trial for all its episodes; with the same settings, the same again."""
-    torch.set_num_threads(1)  # networks this small gain nothing from a second one
-    design, count = DESIGNS[settings.design], settings.trials
-    arenas, arenas_of_play = (Arenas(design, count, settings.agent == "single") for _ in range(2))
+    """Train every trial for all its episodes; the same settings give the same training."""
+    torch.set_num_threads(1)  # with networks this small a second one only waits for the first
+    arenas, stage = (Arenas(settings.design, settings.trials, settings.agent == "single") for _ in range(2))
     agent = Agent(settings, arenas)
-    evaluations = settings.episodes // settings.evaluate_every
-    scores, began = np.zeros((count, evaluations)), time.monotonic()
-    done, materials, ended = np.zeros(count, np.int64), np.zeros(count, np.int64), np.ones(count, np.bool_)
-    observations, _ = arenas.reset()
+    scores = np.zeros((settings.trials, settings.episodes // settings.evaluate_every))
+    done, materials = np.zeros((2, settings.trials), np.int64)
+    begins = np.ones(settings.trials, np.bool_)
     while (training := done < settings.episodes).any():
-        if ended.any():
-            chosen = agent.choose(epsilon_after(done, settings.episodes, settings.main_floor, settings.main_share))
-            materials = np.where(ended, chosen, materials)
-            observations, _ = arenas.reset(options={"reset_mask": ended, "material": materials})
-        states, rows = agent.states(observations, materials), agent.rows(materials)
-        actions = agent.builder.act(
-            rows, states, epsilon_after(done, settings.episodes, settings.floor, settings.share)
-        )
-        observations, rewards, terminated, truncated, info = arenas.step(actions)
-        following, on = agent.states(observations, materials), training
-        agent.builder.store(rows[on], states[on], actions[on], rewards[on], following[on], terminated[on])
-        agent.builder.learn(rows[on])
+        if begins.any():
+            epsilon = epsilon_after(done, settings.episodes, settings.main_floor, settings.main_share)
+            materials = np.where(begins, agent.main.act(agent.trials, agent.start, epsilon), materials)
+            seen, _ = arenas.reset(options={"reset_mask": begins, "material": materials})
+        rows, states = agent.rows(materials), agent.states(seen, materials)
+        epsilon = epsilon_after(done, settings.episodes, settings.floor, settings.share)
+        actions = agent.builder.act(rows, states, epsilon)
+        seen, rewards, terminated, truncated, info = arenas.step(actions)
+        following = agent.states(seen, materials)
+        step = (rows, states, actions, rewards, following, terminated)
+        agent.builder.store(*(part[training] for part in step))
+        agent.builder.learn(rows[training])
 
-        ended = (terminated | truncated) & training
-        if not ended.any():
-            continue
-        if settings.agent != "single":  # the main agent's transition is a whole episode, and its reward the score
-            over = agent.trials[ended]
-            agent.main.store(
-                over, agent.start[ended], materials[ended], info["score"][ended], observations[ended, :3], ended[ended]
-            )
-            agent.main.learn(over)
+        ended = terminated | truncated
+        if ended.any():  # to the main agent the whole episode was one step, and its score is the reward
+            episode = (agent.trials, agent.start, materials, info["score"], seen[:, :3], ended)
+            agent.main.store(*(part[ended] for part in episode))
+            agent.main.learn(agent.trials[ended])
         done += ended
-        due = ended & (done % settings.evaluate_every == 0)
-        if due.any():
-            scores[due, done[due] // settings.evaluate_every - 1] = play(agent, arenas_of_play).scores[due]
-            if show and due[0]:
-                took = time.monotonic() - began
-                print(
-                    f"{done[0]} episodes, {took:.0f} s: greedy score {scores[0, done[0] // settings.evaluate_every - 1]:g}",
-                    flush=True,
-                )
-    return Training((np.arange(evaluations) + 1) * settings.evaluate_every, scores, agent)
+        begins = ended & (done < settings.episodes)
+        evaluated = ended & (done % settings.evaluate_every == 0)
+        if evaluated.any():
+            scores[evaluated, done[evaluated] // settings.evaluate_every - 1] = play(agent, stage)[evaluated]
+            if show and evaluated[0]:
+                print(f"{done[0]} episodes: score {scores[0, done[0] // settings.evaluate_every - 1]:g}", flush=True)
+    return Training((1 + np.arange(scores.shape[1])) * settings.evaluate_every, scores, agent)
 
 
-def interval(scores: Floats) -> tuple[float, float]:
-    """Return the mean of the trials' scores (trials,), and half of its 95 % interval by Student's t; nan for one."""
-    n = len(scores)
-    if n < 2:
-        return float(scores.mean()), float("nan")
-    t = np.quantile(np.abs(np.random.default_rng(0).standard_t(n - 1, 1_000_000)), 0.95)
-    return float(scores.mean()), float(t * scores.std(ddof=1) / n**0.5)
+def interval(values: Floats) -> tuple[float, float]:
+    """Return the mean of several trials' values (trials,), and how far its 95 % interval reaches (Student's t)."""
+    trials = len(values)
+    draws = np.random.default_rng(0).standard_t(max(trials - 1, 1), 1_000_000)
+    spread = values.std(ddof=1) / trials**0.5 if trials > 1 else np.inf
+    return float(values.mean()), float(np.quantile(np.abs(draws), 0.95) * spread)
 
 
 def main() -> int:
     """Train, and print the scores; returns the exit code."""
-    parser = argparse.ArgumentParser(description="The paper's agents on one page; the file says what each option is.")
+    parser = argparse.ArgumentParser(description="The paper's agents on one page. class Settings says more.")
+    choices = {"agent": ["nested", "hierarchical", "single"], "design": list(DESIGNS)}
     for setting in fields(Settings):
-        choices = {"agent": ["nested", "hierarchical", "single"], "design": list(DESIGNS)}.get(setting.name)
-        name, default = "--" + setting.name.replace("_", "-"), setting.default
-        parser.add_argument(name, type=type(default), default=default, choices=choices, help=f"[{default}]")
+        name, kind = "--" + setting.name.replace("_", "-"), type(setting.default)
+        parser.add_argument(
+            name, type=kind, default=setting.default, choices=choices.get(setting.name), help=f"[{setting.default}]"
+        )
     settings = Settings(**vars(parser.parse_args()))
-    if min(settings.trials, settings.episodes // max(settings.evaluate_every, 1)) < 1:
-        parser.error("it takes a trial, and as many episodes as there are to an evaluation")
-    done = train(settings, show=True)
-    early = done.scores[:, done.episodes <= min(1000, settings.episodes // 3)].mean(axis=1)
-    for name, scores in (("early", early), ("final", done.scores[:, -1])):
-        print("{}: mean score {:.2f} ± {:.2f}".format(name, *interval(scores)))
+    trained = train(settings, show=True)
+    early = trained.episodes <= min(1000, settings.episodes // 3)
+    print("early: {:.2f} ± {:.2f}".format(*interval(trained.scores[:, early].mean(axis=1))))
+    print("final: {:.2f} ± {:.2f}".format(*interval(trained.scores[:, -1])))
     return 0
 
 
