@@ -29,7 +29,9 @@ from numpy.typing import NDArray
 from torch import Tensor
 from torch.nn.functional import huber_loss
 
-Bools, Floats, Ints = NDArray[np.bool_], NDArray[np.float64], NDArray[np.int64]
+Bools = NDArray[np.bool_]
+Floats = NDArray[np.float64]
+Ints = NDArray[np.int64]
 
 # ---------------------------------------------------------------------------------------------------------- The task
 
@@ -76,8 +78,8 @@ class Arenas(VectorEnv[Ints, Ints, Any]):
 
     def reset(self, *, seed: Any = None, options: dict[str, Any] | None = None) -> tuple[Ints, dict[str, Any]]:  # noqa: ARG002
         """Begin episodes where ``options["reset_mask"]`` says so, with what is chosen in ``options["material"]``."""
-        given = options or {}
-        mask, material = given.get("reset_mask", self._all >= 0), given.get("material", np.zeros_like(self._all))
+        material, mask = (options or {}).get("material", 0 * self._all + WORTH.argmax()), self._all >= 0
+        mask = (options or {}).get("reset_mask", mask)
         self.solid[mask, 1:-1, 1:-1] = False
         self._x[mask], self._y[mask] = START[0] + 1, START[1] + 1
         self._left[mask], self._steps[mask], self._running[mask] = self.blocks, 0, True
@@ -94,7 +96,7 @@ class Arenas(VectorEnv[Ints, Ints, Any]):
         x, y = self._x + MOVES[building, 0], self._y + MOVES[building, 1]
         moves = acting & ~self.solid[self._all, x, y]
         self._x[moves], self._y[moves] = x[moves], y[moves]
-        x, y = self._x, np.minimum(self._y + 1, SIZE + 1)  # the agent looks forward all the time
+        x, y = self._x, self._y + 1  # the agent looks forward all the time
         lands = acting & (building >= FIRST_TO_PLACE) & ~self.solid[self._all, x, y]
         self.solid[self._all[lands], x[lands], y[lands]] = True
         rewards = WORTH[self._material] * choosing + (lands & self._design[x, y])
@@ -145,9 +147,9 @@ class Learners:
         self, rows: int, highest: Ints, actions: int, kept: int, settings: Settings, random: torch.Generator
     ) -> None:
         self.settings, self.actions, self.highest, self.random = settings, actions, torch.as_tensor(highest), random
-        self.sizes = list(pairwise((len(highest), settings.hidden, settings.hidden, actions)))
-        layers = [(2 * torch.rand(rows, (n + 1) * m, generator=self.random) - 1) / n**0.5 for n, m in self.sizes]
-        self.online = torch.cat(layers, dim=1)
+        self.widths = (len(highest), settings.hidden, settings.hidden, actions)
+        layers = [(2 * torch.rand(rows, (n + 1) * m, generator=random) - 1) / n**0.5 for n, m in pairwise(self.widths)]
+        self.sizes, self.online = [layer.shape[1] for layer in layers], torch.cat(layers, dim=1)
         self.target = self.online.clone()
         self.mean, self.square = torch.zeros_like(self.online), torch.zeros_like(self.online)
         self.updates, self.stored = torch.zeros(2, rows, dtype=torch.int64)
@@ -155,37 +157,34 @@ class Learners:
         self.replay = torch.empty(rows, min(kept, settings.replay), sum(self.parts))
 
     def values(self, parameters: Tensor, states: Tensor) -> Tensor:
-        """Return Q of networks (k, parameters) in scaled states (k, batch, width), as (k, batch, actions)."""
-        for layer, (n, m) in enumerate(self.sizes):
-            weights, parameters = parameters.split([(n + 1) * m, parameters.shape[1] - (n + 1) * m], dim=1)
-            weights = weights.view(-1, n + 1, m)
-            states = torch.baddbmm(weights[:, -1:], states.tanh() if layer else states, weights[:, :-1])
-        return states
-
-    def scaled(self, states: Ints) -> Tensor:
-        """Return each number of the states (k, width) between -1 and 1."""
-        return 2 * torch.as_tensor(states) / self.highest - 1
+        """Return Q (k, batch, actions) of networks (k, parameters) in states (k, batch, width), which are scaled."""
+        nodes = 2 * states / self.highest - 1
+        for layer, flat in enumerate(parameters.split_with_sizes(self.sizes, dim=1)):
+            weights = flat.view(len(flat), -1, self.widths[layer + 1])  # the last row is the bias
+            nodes = torch.baddbmm(weights[:, -1:], nodes.tanh() if layer else nodes, weights[:, :-1])
+        return nodes
 
     def act(self, rows: Tensor, states: Ints, epsilon: Floats) -> Ints:
         """Return ε-greedy actions (k,) of the named rows (k,)."""
         with torch.no_grad():
-            greedy = self.values(self.online[rows], self.scaled(states)[:, None])[:, 0].argmax(1)
+            greedy = self.values(self.online[rows], torch.as_tensor(states)[:, None])[:, 0].argmax(1)
         explores = torch.rand(len(rows), generator=self.random) < torch.as_tensor(epsilon)
         return torch.where(explores, torch.randint(self.actions, greedy.shape, generator=self.random), greedy).numpy()
 
-    def store(self, rows: Tensor, states: Ints, actions: Ints, rewards: Floats, following: Ints, over: Bools) -> None:
-        """Store one transition of each of the named rows (k,); the oldest makes room."""
-        action, reward, terminated = (torch.as_tensor(part)[:, None] for part in (actions, rewards, over))
-        whole = torch.cat((self.scaled(states), action, reward, self.scaled(following), terminated), dim=1)
-        self.replay[rows, self.stored[rows] % self.replay.shape[1]] = whole.float()
+    def store(self, rows: Tensor, *transition: NDArray[Any]) -> None:
+        """Store s, action, reward, s' and whether the episode terminated, each (k, …), in the named rows (k,)."""
+        numbers = torch.cat([torch.as_tensor(part).view(len(rows), -1).float() for part in transition], dim=1)
+        self.replay[rows, self.stored[rows] % self.replay.shape[1]] = numbers  # the oldest makes room
         self.stored[rows] += 1
 
     def learn(self, rows: Tensor) -> None:
         """Update each of the named rows once, from a batch of its own, where there is one."""
         rows = rows[self.stored[rows] >= self.settings.batch]
+        if not len(rows):
+            return
         held = self.stored[rows, None].clamp(max=self.replay.shape[1])
         drawn = (torch.rand(len(rows), self.settings.batch, generator=self.random) * held).long()
-        states, actions, rewards, following, over = self.replay[rows[:, None], drawn].split(self.parts, dim=-1)
+        states, actions, rewards, following, over = self.replay[rows[:, None], drawn].split_with_sizes(self.parts, -1)
         parameters = self.online[rows].requires_grad_()
         with torch.no_grad():
             online, target = self.values(parameters, following), self.values(self.target[rows], following)
@@ -222,10 +221,10 @@ class Agent:
         self.start = np.tile([*START, arenas.blocks], (arenas.num_envs, 1))
         random = torch.Generator().manual_seed(settings.seed)
         self.main = Learners(arenas.num_envs, arenas.highest[:3], len(WORTH), settings.episodes, settings, random)
-        appended = np.full(self.kind == "nested", len(WORTH) - 1)
+        appended = [len(WORTH) - 1] * (self.kind == "nested")
         rows = arenas.num_envs * (len(WORTH) if self.kind == "hierarchical" else 1)
         actions, steps = int(arenas.single_action_space.n), settings.episodes * STEP_LIMIT
-        self.builder = Learners(rows, np.append(arenas.highest, appended), actions, steps, settings, random)
+        self.builder = Learners(rows, np.array([*arenas.highest, *appended]), actions, steps, settings, random)
 
     def rows(self, materials: Ints) -> Tensor:
         """Return which of the builder's rows acts in each trial: a hierarchy has one for each material."""
@@ -282,14 +281,14 @@ def train(settings: Settings, show: bool = False) -> Training:
         actions = agent.builder.act(rows, states, epsilon)
         seen, rewards, terminated, truncated, info = arenas.step(actions)
         following = agent.states(seen, materials)
-        step = (rows, states, actions, rewards, following, terminated)
-        agent.builder.store(*(part[training] for part in step))
+        step = states, actions, rewards, following, terminated
+        agent.builder.store(rows[training], *(part[training] for part in step))
         agent.builder.learn(rows[training])
 
         ended = terminated | truncated
-        if ended.any():  # to the main agent the whole episode was one step, and its score is the reward
-            episode = (agent.trials, agent.start, materials, info["score"], seen[:, :3], ended)
-            agent.main.store(*(part[ended] for part in episode))
+        if ended.any():  # to the main agent an episode is one step, and its score the reward
+            episode = agent.start, materials, info["score"], seen[:, :3], ended
+            agent.main.store(agent.trials[ended], *(part[ended] for part in episode))
             agent.main.learn(agent.trials[ended])
         done += ended
         begins = ended & (done < settings.episodes)
@@ -314,13 +313,14 @@ def main() -> int:
     parser = argparse.ArgumentParser(description="The paper's agents on one page. class Settings says more.")
     choices = {"agent": ["nested", "hierarchical", "single"], "design": list(DESIGNS)}
     for setting in fields(Settings):
-        name, kind = "--" + setting.name.replace("_", "-"), type(setting.default)
-        parser.add_argument(
-            name, type=kind, default=setting.default, choices=choices.get(setting.name), help=f"[{setting.default}]"
-        )
+        name, default, among = setting.name.replace("_", "-"), setting.default, choices.get(setting.name)
+        parser.add_argument(f"--{name}", type=type(default), default=default, choices=among, help=f"[{default}]")
     settings = Settings(**vars(parser.parse_args()))
+    least = min(settings.trials, settings.batch, settings.hidden, settings.target_period, settings.evaluate_every)
+    if least < 1 or settings.episodes < settings.evaluate_every:
+        parser.error("whole numbers have to be 1 at least, and episodes no fewer than from one evaluation to the next")
     trained = train(settings, show=True)
-    early = trained.episodes <= min(1000, settings.episodes // 3)
+    early = trained.episodes <= max(settings.evaluate_every, min(1000, settings.episodes // 3))
     print("early: {:.2f} ± {:.2f}".format(*interval(trained.scores[:, early].mean(axis=1))))
     print("final: {:.2f} ± {:.2f}".format(*interval(trained.scores[:, -1])))
     return 0
