@@ -15,7 +15,6 @@ train side by side and share nothing: an array has a row for each of them.
 """
 
 import argparse
-import sys
 from dataclasses import dataclass, fields
 from itertools import pairwise
 from typing import Any, NamedTuple
@@ -35,23 +34,18 @@ Ints = NDArray[np.int64]
 
 # ---------------------------------------------------------------------------------------------------------- The task
 
-SIZE, START, STEP_LIMIT = 15, (7, 14), 60
-"""Cells along a side; the cell (x, y) where an episode begins, at the far edge; the most steps that it takes."""
-
-WORTH = np.array([-5.0, 10.0])
-"""What wood and stone add to an episode's score. Each block on the design adds 1."""
-
+SIZE = 15  # cells along a side of the floor: x to the right, y forward, from 0
+START = (7, 14)  # where an episode begins: the middle of the far edge. The agent looks forward all the time
+STEP_LIMIT = 60  # steps of the longest episode
+WORTH = np.array([-5.0, 10.0])  # what wood and stone add to an episode's score; a block on the design adds 1
+# F, B, L, R, then F+D, L+D, R+D, B+D, which place a block in front after the move.
 MOVES = np.array([(0, 1), (0, -1), (-1, 0), (1, 0), (0, 1), (-1, 0), (1, 0), (0, -1)])
-"""Where each action goes, (right, forward): F, B, L, R, and F+D, L+D, R+D, B+D, which then place a block in front."""
-
 FIRST_TO_PLACE, NOTHING_CHOSEN = 4, -1
-
-DESIGNS = {
+DESIGNS = {  # the cells to build on; there are as many blocks
     "line": [(7, y) for y in range(2, 13)],
     "zigzag": list(zip((7, 8, 9, 8, 7, 6, 5, 6, 7, 8, 9), range(2, 13), strict=True)),
     "diamond": [(x, y) for x in range(SIZE) for y in range(SIZE) if abs(x - 7) + abs(y - 7) == 4],
 }
-"""The cells to build on. There are as many blocks."""
 
 
 class Arenas(VectorEnv[Ints, Ints, Any]):
@@ -78,8 +72,8 @@ class Arenas(VectorEnv[Ints, Ints, Any]):
 
     def reset(self, *, seed: Any = None, options: dict[str, Any] | None = None) -> tuple[Ints, dict[str, Any]]:  # noqa: ARG002
         """Begin episodes where ``options["reset_mask"]`` says so, with what is chosen in ``options["material"]``."""
-        material, mask = (options or {}).get("material", 0 * self._all + WORTH.argmax()), self._all >= 0
-        mask = (options or {}).get("reset_mask", mask)
+        best = np.full(self.num_envs, WORTH.argmax())
+        mask, material = ({"reset_mask": best >= 0, "material": best} | (options or {})).values()
         self.solid[mask, 1:-1, 1:-1] = False
         self._x[mask], self._y[mask] = START[0] + 1, START[1] + 1
         self._left[mask], self._steps[mask], self._running[mask] = self.blocks, 0, True
@@ -87,7 +81,7 @@ class Arenas(VectorEnv[Ints, Ints, Any]):
         self._score[mask] = 0 if self.chooses else WORTH[material[mask]]
         return self._seen(), {}
 
-    def step(self, actions: Ints) -> tuple[Ints, Floats, Bools, Bools, dict[str, Any]]:
+    def step(self, actions: Ints) -> tuple[Ints, Floats, Bools, Bools, dict[str, Floats]]:
         """Move, then place a block in front, wherever an episode is running."""
         building = actions - len(WORTH) * self.chooses  # below 0: a material
         first = self._running & (self._material == NOTHING_CHOSEN)
@@ -96,7 +90,7 @@ class Arenas(VectorEnv[Ints, Ints, Any]):
         x, y = self._x + MOVES[building, 0], self._y + MOVES[building, 1]
         moves = acting & ~self.solid[self._all, x, y]
         self._x[moves], self._y[moves] = x[moves], y[moves]
-        x, y = self._x, self._y + 1  # the agent looks forward all the time
+        x, y = self._x, self._y + 1
         lands = acting & (building >= FIRST_TO_PLACE) & ~self.solid[self._all, x, y]
         self.solid[self._all[lands], x[lands], y[lands]] = True
         rewards = WORTH[self._material] * choosing + (lands & self._design[x, y])
@@ -140,12 +134,10 @@ class Settings:
 class Learners:
     """Double deep Q-learners in rows: each has parameters, an optimiser and a replay of its own.
 
-    Their states are whole numbers from 0 to ``highest``; a row keeps its last ``kept`` transitions.
+    A state is whole numbers, from 0 to ``highest``.
     """
 
-    def __init__(
-        self, rows: int, highest: Ints, actions: int, kept: int, settings: Settings, random: torch.Generator
-    ) -> None:
+    def __init__(self, rows: int, highest: Ints, actions: int, settings: Settings, random: torch.Generator) -> None:
         self.settings, self.actions, self.highest, self.random = settings, actions, torch.as_tensor(highest), random
         self.widths = (len(highest), settings.hidden, settings.hidden, actions)
         layers = [(2 * torch.rand(rows, (n + 1) * m, generator=random) - 1) / n**0.5 for n, m in pairwise(self.widths)]
@@ -154,7 +146,7 @@ class Learners:
         self.mean, self.square = torch.zeros_like(self.online), torch.zeros_like(self.online)
         self.updates, self.stored = torch.zeros(2, rows, dtype=torch.int64)
         self.parts = [len(highest), 1, 1, len(highest), 1]  # s, action, reward, s', whether the episode terminated
-        self.replay = torch.empty(rows, min(kept, settings.replay), sum(self.parts))
+        self.replay = torch.empty(rows, min(settings.replay, settings.episodes * STEP_LIMIT), sum(self.parts))
 
     def values(self, parameters: Tensor, states: Tensor) -> Tensor:
         """Return Q (k, batch, actions) of networks (k, parameters) in states (k, batch, width), which are scaled."""
@@ -220,11 +212,10 @@ class Agent:
         self.kind, self.trials = settings.agent, torch.arange(arenas.num_envs)
         self.start = np.tile([*START, arenas.blocks], (arenas.num_envs, 1))
         random = torch.Generator().manual_seed(settings.seed)
-        self.main = Learners(arenas.num_envs, arenas.highest[:3], len(WORTH), settings.episodes, settings, random)
-        appended = [len(WORTH) - 1] * (self.kind == "nested")
+        self.main = Learners(arenas.num_envs, arenas.highest[:3], len(WORTH), settings, random)
         rows = arenas.num_envs * (len(WORTH) if self.kind == "hierarchical" else 1)
-        actions, steps = int(arenas.single_action_space.n), settings.episodes * STEP_LIMIT
-        self.builder = Learners(rows, np.array([*arenas.highest, *appended]), actions, steps, settings, random)
+        highest = np.array([*arenas.highest, len(WORTH) - 1] if self.kind == "nested" else arenas.highest)
+        self.builder = Learners(rows, highest, int(arenas.single_action_space.n), settings, random)
 
     def rows(self, materials: Ints) -> Tensor:
         """Return which of the builder's rows acts in each trial: a hierarchy has one for each material."""
@@ -243,8 +234,7 @@ def play(agent: Agent, arenas: Arenas) -> Floats:
     for _ in range(STEP_LIMIT):
         actions = agent.builder.act(agent.rows(materials), agent.states(seen, materials), greedily)
         seen, _, _, _, info = arenas.step(actions)
-    scores: Floats = info["score"]
-    return scores
+    return info["score"]
 
 
 # ------------------------------------------------------------------------------------------------------- Algorithm 1
@@ -286,7 +276,7 @@ def train(settings: Settings, show: bool = False) -> Training:
         agent.builder.learn(rows[training])
 
         ended = terminated | truncated
-        if ended.any():  # to the main agent an episode is one step, and its score the reward
+        if ended.any() and settings.agent != "single":  # to a main agent, an episode is one step and its score r_M
             episode = agent.start, materials, info["score"], seen[:, :3], ended
             agent.main.store(agent.trials[ended], *(part[ended] for part in episode))
             agent.main.learn(agent.trials[ended])
@@ -308,8 +298,8 @@ def interval(values: Floats) -> tuple[float, float]:
     return float(values.mean()), float(np.quantile(np.abs(draws), 0.95) * spread)
 
 
-def main() -> int:
-    """Train, and print the scores; returns the exit code."""
+def main() -> None:
+    """Train, and print the scores."""
     parser = argparse.ArgumentParser(description="The paper's agents on one page. class Settings says more.")
     choices = {"agent": ["nested", "hierarchical", "single"], "design": list(DESIGNS)}
     for setting in fields(Settings):
@@ -323,8 +313,7 @@ def main() -> int:
     early = trained.episodes <= max(settings.evaluate_every, min(1000, settings.episodes // 3))
     print("early: {:.2f} ± {:.2f}".format(*interval(trained.scores[:, early].mean(axis=1))))
     print("final: {:.2f} ± {:.2f}".format(*interval(trained.scores[:, -1])))
-    return 0
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    main()
