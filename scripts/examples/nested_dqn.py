@@ -17,7 +17,7 @@ train side by side and share nothing: an array has a row for each of them.
 import argparse
 from dataclasses import dataclass, fields
 from itertools import pairwise
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 import torch
@@ -33,7 +33,6 @@ Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
 # ---------------------------------------------------------------------------------------------------------- The task
-
 SIZE = 15  # cells along a side of the floor: x to the right, y forward, from 0
 START = (7, 14)  # where an episode begins: the middle of the far edge. The agent looks forward all the time
 STEP_LIMIT = 60  # steps of the longest episode
@@ -107,8 +106,6 @@ class Arenas(VectorEnv[Ints, Ints, Any]):
 
 
 # ------------------------------------------------------------------------------------------------------- The learner
-
-
 @dataclass(frozen=True)
 class Settings:
     """What is trained, and how. P: the paper's; all else is chosen."""
@@ -195,16 +192,12 @@ class Learners:
 
 
 def ddqn_target(rewards: Tensor, over: Tensor, online: Tensor, target: Tensor, gamma: float) -> Tensor:
-    """Return r + γ Q'(s', argmax Q(s', ·)), (…, 1): the online network chooses, the target network says its value.
-
-    Rewards and ``over``, 1 where the episode terminated, are (…, 1); both networks' values of s' are (…, actions).
-    """
-    return rewards + gamma * (1 - over) * target.gather(-1, online.argmax(-1, keepdim=True))
+    """Return r + γ Q'(s', argmax Q(s', ·)), (…, 1); both networks' values of s' are (…, actions), ``over`` is 0 or 1."""
+    best = online.argmax(-1, keepdim=True)  # the online network chooses,
+    return rewards + gamma * (1 - over) * target.gather(-1, best)  # the target network says what that is worth
 
 
 # -------------------------------------------------------------------------------------------------------- The agents
-
-
 class Agent:
     """One of the paper's agents, in every trial: who acts, and what it sees."""
 
@@ -238,23 +231,16 @@ def play(agent: Agent, arenas: Arenas) -> Floats:
 
 
 # ------------------------------------------------------------------------------------------------------- Algorithm 1
-
-
-class Training(NamedTuple):
-    """A training: its greedy scores (trials, evaluations) after so many episodes (evaluations,), and the agent."""
-
-    episodes: Ints
-    scores: Floats
-    agent: Agent
-
-
 def epsilon_after(done: Ints, episodes: int, floor: float, share: float) -> Floats:
     """Return ε after so many of all episodes, in a row for each trial."""
     return 1 + (floor - 1) * np.minimum(done / (share * episodes), 1)
 
 
-def train(settings: Settings, show: bool = False) -> Training:
-    """Train every trial for all its episodes; the same settings give the same training."""
+def train(settings: Settings, show: bool = False) -> tuple[Ints, Floats, Agent]:
+    """Train every trial for all its episodes: equal settings give equal trainings.
+
+    Return after how many episodes (evaluations,) a greedy one was played, the scores (trials, evaluations), and who did.
+    """
     torch.set_num_threads(1)  # with networks this small a second one only waits for the first
     arenas, stage = (Arenas(settings.design, settings.trials, settings.agent == "single") for _ in range(2))
     agent = Agent(settings, arenas)
@@ -287,7 +273,7 @@ def train(settings: Settings, show: bool = False) -> Training:
             scores[evaluated, done[evaluated] // settings.evaluate_every - 1] = play(agent, stage)[evaluated]
             if show and evaluated[0]:
                 print(f"{done[0]} episodes: score {scores[0, done[0] // settings.evaluate_every - 1]:g}", flush=True)
-    return Training((1 + np.arange(scores.shape[1])) * settings.evaluate_every, scores, agent)
+    return (1 + np.arange(scores.shape[1])) * settings.evaluate_every, scores, agent
 
 
 def interval(values: Floats) -> tuple[float, float]:
@@ -309,10 +295,10 @@ def main() -> None:
     least = min(settings.trials, settings.batch, settings.hidden, settings.target_period, settings.evaluate_every)
     if least < 1 or settings.episodes < settings.evaluate_every:
         parser.error("whole numbers have to be 1 at least, and episodes no fewer than from one evaluation to the next")
-    trained = train(settings, show=True)
-    early = trained.episodes <= max(settings.evaluate_every, min(1000, settings.episodes // 3))
-    print("early: {:.2f} ± {:.2f}".format(*interval(trained.scores[:, early].mean(axis=1))))
-    print("final: {:.2f} ± {:.2f}".format(*interval(trained.scores[:, -1])))
+    episodes, scores, _ = train(settings, show=True)
+    early = episodes <= max(settings.evaluate_every, min(1000, settings.episodes // 3))
+    print("early: {:.2f} ± {:.2f}".format(*interval(scores[:, early].mean(axis=1))))
+    print("final: {:.2f} ± {:.2f}".format(*interval(scores[:, -1])))
 
 
 if __name__ == "__main__":
