@@ -129,18 +129,14 @@ class Settings:
 
 
 class Learners:
-    """Double deep Q-learners in rows: each has parameters, an optimiser and a replay of its own.
-
-    A state is whole numbers, from 0 to ``highest``.
-    """
+    """Double deep Q-learners in rows that share nothing; a state is whole numbers from 0 to ``highest``."""
 
     def __init__(self, rows: int, highest: Ints, actions: int, settings: Settings, random: torch.Generator) -> None:
         self.settings, self.actions, self.highest, self.random = settings, actions, torch.as_tensor(highest), random
         self.widths = (len(highest), settings.hidden, settings.hidden, actions)
         layers = [(2 * torch.rand(rows, (n + 1) * m, generator=random) - 1) / n**0.5 for n, m in pairwise(self.widths)]
         self.sizes, self.online = [layer.shape[1] for layer in layers], torch.cat(layers, dim=1)
-        self.target = self.online.clone()
-        self.mean, self.square = torch.zeros_like(self.online), torch.zeros_like(self.online)
+        self.target, self.mean, self.square = self.online.clone(), *torch.zeros(2, *self.online.shape)
         self.updates, self.stored = torch.zeros(2, rows, dtype=torch.int64)
         self.parts = [len(highest), 1, 1, len(highest), 1]  # s, action, reward, s', whether the episode terminated
         self.replay = torch.empty(rows, min(settings.replay, settings.episodes * STEP_LIMIT), sum(self.parts))
@@ -192,14 +188,14 @@ class Learners:
 
 
 def ddqn_target(rewards: Tensor, over: Tensor, online: Tensor, target: Tensor, gamma: float) -> Tensor:
-    """Return r + γ Q'(s', argmax Q(s', ·)), (…, 1); both networks' values of s' are (…, actions), ``over`` is 0 or 1."""
+    """Return r + γ Q'(s', argmax Q(s', ·)), (…, 1), of both networks' values of s', (…, actions); ``over`` is 0 or 1."""
     best = online.argmax(-1, keepdim=True)  # the online network chooses,
     return rewards + gamma * (1 - over) * target.gather(-1, best)  # the target network says what that is worth
 
 
 # -------------------------------------------------------------------------------------------------------- The agents
 class Agent:
-    """One of the paper's agents, in every trial: who acts, and what it sees."""
+    """One of the paper's agents in every trial: who acts, and what it sees. A single agent has no use for its main."""
 
     def __init__(self, settings: Settings, arenas: Arenas) -> None:
         self.kind, self.trials = settings.agent, torch.arange(arenas.num_envs)
@@ -232,15 +228,12 @@ def play(agent: Agent, arenas: Arenas) -> Floats:
 
 # ------------------------------------------------------------------------------------------------------- Algorithm 1
 def epsilon_after(done: Ints, episodes: int, floor: float, share: float) -> Floats:
-    """Return ε after so many of all episodes, in a row for each trial."""
+    """Return ε (trials,) after so many of all episodes: from 1 it falls to its floor within a share of them."""
     return 1 + (floor - 1) * np.minimum(done / (share * episodes), 1)
 
 
 def train(settings: Settings, show: bool = False) -> tuple[Ints, Floats, Agent]:
-    """Train every trial for all its episodes: equal settings give equal trainings.
-
-    Return after how many episodes (evaluations,) a greedy one was played, the scores (trials, evaluations), and who did.
-    """
+    """Return after how many episodes (evaluations,) which greedy scores were (trials, evaluations), and the agent."""
     torch.set_num_threads(1)  # with networks this small a second one only waits for the first
     arenas, stage = (Arenas(settings.design, settings.trials, settings.agent == "single") for _ in range(2))
     agent = Agent(settings, arenas)
@@ -253,8 +246,9 @@ def train(settings: Settings, show: bool = False) -> tuple[Ints, Floats, Agent]:
             materials = np.where(begins, agent.main.act(agent.trials, agent.start, epsilon), materials)
             seen, _ = arenas.reset(options={"reset_mask": begins, "material": materials})
         rows, states = agent.rows(materials), agent.states(seen, materials)
-        epsilon = epsilon_after(done, settings.episodes, settings.floor, settings.share)
-        actions = agent.builder.act(rows, states, epsilon)
+        actions = agent.builder.act(
+            rows, states, epsilon_after(done, settings.episodes, settings.floor, settings.share)
+        )
         seen, rewards, terminated, truncated, info = arenas.step(actions)
         following = agent.states(seen, materials)
         step = states, actions, rewards, following, terminated
