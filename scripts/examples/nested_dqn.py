@@ -188,7 +188,7 @@ class Learners:
 
 
 def ddqn_target(rewards: Tensor, over: Tensor, online: Tensor, target: Tensor, gamma: float) -> Tensor:
-    """Return r + γ Q'(s', argmax Q(s', ·)), (…, 1), of both networks' values of s', (…, actions); ``over`` is 0 or 1."""
+    """Return r + γ Q'(s', argmax Q(s', ·)), (…, 1), of both networks' values of s', (…, actions); ``over``: 0 or 1."""
     best = online.argmax(-1, keepdim=True)  # the online network chooses,
     return rewards + gamma * (1 - over) * target.gather(-1, best)  # the target network says what that is worth
 
