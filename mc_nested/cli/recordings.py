@@ -3,6 +3,7 @@
 import datetime
 from collections.abc import Sequence
 from dataclasses import dataclass
+from enum import Enum
 from pathlib import Path
 from typing import Annotated
 
@@ -10,10 +11,12 @@ import typer
 from rich.table import Column, Table
 
 from calibration.report.privacy import names_here
+from mc_nested.atomic_file import whole_folder
 from mc_nested.cli.options import is_alone
 from mc_nested.cli.output import JsonOption, Output, prints
 from mc_nested.errors import RecordingError
 from mc_nested.live.recording.cut import cut, trim
+from mc_nested.live.recording.frames import played_in
 from mc_nested.live.recording.recording_file import Overview, overview_of
 from mc_nested.live.recording.run_recorder import is_recording, kept_recordings, recordings_folder
 
@@ -130,6 +133,46 @@ def cut_out(
     begin, clean = seen.began + round(first * 1e9), names_here().removed_from
     calls = cut(path, out, begin, end, clean, with_pictures=not no_pictures)
     typer.echo(f"{out}: {calls:,} calls, {_state(overview_of(out))}")
+
+
+class Format(str, Enum):
+    """What recordings are exported as."""
+
+    LEROBOT = "lerobot"
+    MINARI = "minari"
+
+
+INSTALL = "pip install -c constraints.txt -e '.[share]'"
+
+
+@app.command()
+def export(
+    recordings: Annotated[list[Path], typer.Argument(metavar="REC...", help="recordings: names, folders or files")],
+    format: Annotated[Format, typer.Option(help="LeRobot's frames with their video, or Minari's transitions")],
+    out: Annotated[Path, typer.Option(metavar="FOLDER", help="a new folder")],
+    fps: Annotated[int, typer.Option(min=1, max=60, help="frames a second, of lerobot")] = 20,
+) -> None:
+    """Write what was played in recordings as a dataset that others can learn from, the chat blanked."""
+    found = [played_in(recording_path(each)) for each in recordings]
+    try:
+        with whole_folder(out, RecordingError) as folder:
+            if format is Format.MINARI:
+                from mc_nested.report.minari_dataset import write_minari
+
+                what = f"as {write_minari(folder, found)}"
+            else:
+                from mc_nested.report.lerobot_dataset import write_lerobot
+
+                what = f"{write_lerobot(folder, found, fps):,} frames"
+    except ImportError as error:
+        raise RecordingError(f"--format {format.value} needs {error.name}: {INSTALL}") from None
+    for played in found:
+        missing = [f"{played.left_out} actions that were not confirmed, or whose episode had ended"] * bool(played.left_out)
+        if missing := [*missing, *played.damage]:
+            typer.echo(f"{played.path}: left out: {'; '.join(missing)}", err=True)
+    episodes = [each for played in found for each in played.episodes]
+    steps = sum(len(each.steps) for each in episodes)
+    typer.echo(f"{out}: {len(episodes):,} episodes, {steps:,} actions, {what}")
 
 
 def _found(path: Path) -> RecordingFound:

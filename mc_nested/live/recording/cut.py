@@ -114,11 +114,11 @@ def _batches(path: Path, first: int, last: int) -> Iterator[tuple[list[Timed], l
             continue
         if isinstance(each, KeptPicture):
             if calls:
-                pictures.append((calls[-1][0], each))
+                pictures.append((each.at, each))
             before = each
         elif first <= each.at <= last:
             if not calls and before is not None:
-                pictures.append((each.at, before))
+                pictures.append((before.at, before))
             before = None
             calls.append((each.at, each.call))
             if len(calls) >= _BATCH:
