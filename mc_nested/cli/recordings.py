@@ -167,7 +167,9 @@ def export(
     except ImportError as error:
         raise RecordingError(f"--format {format.value} needs {error.name}: {INSTALL}") from None
     for played in found:
-        missing = [f"{played.left_out} actions that were not confirmed, or whose episode had ended"] * bool(played.left_out)
+        missing = [f"{played.left_out} actions that were not confirmed, or whose episode had ended"] * bool(
+            played.left_out
+        )
         if missing := [*missing, *played.damage]:
             typer.echo(f"{played.path}: left out: {'; '.join(missing)}", err=True)
     episodes = [each for played in found for each in played.episodes]

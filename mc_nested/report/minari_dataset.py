@@ -31,7 +31,8 @@ def write_minari(folder: Path, recordings: Sequence[Played]) -> str:
     data = folder / f"{name}-v0" / "data"
     data.mkdir(parents=True)
     spaces = {
-        "observation_space": space_up_to(highest_observation(scenario)), "action_space": action_space_of(scenario)
+        "observation_space": space_up_to(highest_observation(scenario)),
+        "action_space": action_space_of(scenario),
     }
     storage = MinariStorage.new(data, data_format="arrow", **spaces)
     about = {"dataset_id": f"{name}-v0", "minari_version": version("minari"), "algorithm_name": "mc-nested"}

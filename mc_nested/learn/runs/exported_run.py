@@ -44,9 +44,13 @@ def _card(run: RunFolder, name: str) -> str:
     }
     facts = {
         "design": _escaped(f"{scenario.name}, {scenario.blocks} blocks, {scenario.size} x {scenario.size} cells"),
-        "materials, with what each adds": _escaped(", ".join(f"{each.name} ({each.p:g})" for each in scenario.materials)),
+        "materials, with what each adds": _escaped(
+            ", ".join(f"{each.name} ({each.p:g})" for each in scenario.materials)
+        ),
         "agent, preset": f"{config.agent}, {_escaped(config.preset_name)}",
-        "learnt in": {"sim": "the simulator", "virtual": "the virtual client", "live": "a running game"}[config.backend],
+        "learnt in": {"sim": "the simulator", "virtual": "the virtual client", "live": "a running game"}[
+            config.backend
+        ],
         "trials, seed": f"{config.trials}, {config.seed}",
         "training episodes, all trials": f"{done:,} of at most {config.preset.episodes * config.trials:,}",
         "final score of each trial": ", ".join("not finished" if each is None else f"{each:g}" for each in scores),
