@@ -4,6 +4,7 @@ import datetime
 from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import Enum
+from functools import partial
 from pathlib import Path
 from typing import Annotated
 
@@ -142,39 +143,33 @@ class Format(str, Enum):
     MINARI = "minari"
 
 
-INSTALL = "pip install -c constraints.txt -e '.[share]'"
-
-
 @app.command()
 def export(
-    recordings: Annotated[list[Path], typer.Argument(metavar="REC...", help="recordings: names, folders or files")],
-    format: Annotated[Format, typer.Option(help="LeRobot's frames with their video, or Minari's transitions")],
+    recordings: Annotated[list[Path], typer.Argument(metavar="REC...", help="recordings, each as for verify")],
+    form: Annotated[Format, typer.Option("--format", help="frames and video, or the Env's transitions")],
     out: Annotated[Path, typer.Option(metavar="FOLDER", help="a new folder")],
     fps: Annotated[int, typer.Option(min=1, max=60, help="frames a second, of lerobot")] = 20,
 ) -> None:
     """Write what was played in recordings as a dataset that others can learn from, the chat blanked."""
     found = [played_in(recording_path(each)) for each in recordings]
-    try:
-        with whole_folder(out, RecordingError) as folder:
-            if format is Format.MINARI:
-                from mc_nested.report.minari_dataset import write_minari
-
-                what = f"as {write_minari(folder, found)}"
+    with whole_folder(out, RecordingError) as folder:
+        try:
+            if form is Format.MINARI:
+                from mc_nested.report.minari_dataset import write_minari as write
             else:
                 from mc_nested.report.lerobot_dataset import write_lerobot
 
-                what = f"{write_lerobot(folder, found, fps):,} frames"
-    except ImportError as error:
-        raise RecordingError(f"--format {format.value} needs {error.name}: {INSTALL}") from None
+                write = partial(write_lerobot, fps=fps)
+        except ImportError as error:
+            install = "pip install -c constraints.txt -e '.[share]'"
+            raise RecordingError(f"--format {form.value} needs {error.name}: {install}") from None
+        what = write(folder, found)
     for played in found:
-        missing = [f"{played.left_out} actions that were not confirmed, or whose episode had ended"] * bool(
-            played.left_out
-        )
-        if missing := [*missing, *played.damage]:
+        actions = [f"{played.left_out} actions"] if played.left_out else []
+        if missing := [*actions, *played.damage]:
             typer.echo(f"{played.path}: left out: {'; '.join(missing)}", err=True)
     episodes = [each for played in found for each in played.episodes]
-    steps = sum(len(each.steps) for each in episodes)
-    typer.echo(f"{out}: {len(episodes):,} episodes, {steps:,} actions, {what}")
+    typer.echo(f"{out}: {what}, {len(episodes):,} episodes, {sum(len(each.steps) for each in episodes):,} actions")
 
 
 def _found(path: Path) -> RecordingFound:

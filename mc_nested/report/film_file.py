@@ -166,7 +166,7 @@ class Mp4Encoder:
 
     def _started(self, width: int, height: int) -> "subprocess.Popen[bytes]":
         pictures = ["-f", "rawvideo", "-pix_fmt", "rgb24", "-s", f"{width}x{height}", "-r", f"{self._fps}", "-i", "-"]
-        written = [*H264, "-g", f"{self._whole_every}", "-movflags", "+faststart", "-f", "mp4", "-y", self._path]
+        written = [*H264, "-g", f"{self._whole_every}", "-movflags", "+faststart", "-f", "mp4", "-y", f"{self._path}"]
         return subprocess.Popen(  # noqa: S603 - imageio-ffmpeg's
             [check_ffmpeg(), "-v", "error", *pictures, *written],
             stdin=subprocess.PIPE,

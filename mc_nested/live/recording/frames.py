@@ -1,12 +1,11 @@
 """What was played in a recording, for others to learn from: its episodes, as the Env counts them, and their frames.
 
-Times are the run's own clock, in seconds. A frame shows what was recorded of the window: the last picture in its
-episode, and the lines that were read last. The rest is grey, as is the chat.
+Times are the run's own clock, in seconds. A frame shows what was recorded of the window: the last picture of its
+episode, and over it the lines that were read last. All else is grey, as is the chat.
 """
 
 from collections import deque
-from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
@@ -29,27 +28,23 @@ from mc_nested.live.vision.chat_region import BLANK
 
 @dataclass(frozen=True)
 class Step:
-    """An action that was confirmed at the time ``ended``, and what ``ArenaEnv.step`` returns for it.
-
-    ``action`` is the one that was done: where a person had taken over, theirs.
-    """
+    """An action, confirmed at ``ended``, and what ``ArenaEnv.step`` returned; a person's own where they had taken over."""
 
     action: Action
     material: int
     outcome: Outcome
+    ended: float
     observation: Observation
     reward: float
     terminated: bool
     truncated: bool
     info: dict[str, Any]
-    ended: float
 
 
 @dataclass(frozen=True)
 class Episode:
-    """One episode from its reset's end on, at the time ``began``; ``observation`` and ``info`` are the reset's."""
+    """The steps behind a reset that ended at ``began``; ``observation`` and ``info`` are what it returned."""
 
-    scenario: Scenario
     began: float
     observation: Observation
     info: dict[str, Any]
@@ -58,73 +53,24 @@ class Episode:
 
 @dataclass(frozen=True)
 class Played:
-    """The episodes of a recording, in which at least one action each was confirmed, and what of it is missing there.
+    """The episodes of a recording that have a step, the window's width and height, and what is damaged.
 
-    ``left_out`` counts the actions that failed, or before which something is lost, or that came after an episode's end.
+    ``left_out`` counts actions that failed, that an unknown one came before, or that came behind an episode's end.
     """
 
     path: Path
+    scenario: Scenario
     size: tuple[int, int]
     episodes: list[Episode]
     left_out: int
     damage: list[str]
 
 
-def played_in(path: Path) -> Played:
-    """Return what was played in a recording; RecordingError if nothing of it can be used."""
-    facts = facts_of(path)
-    if "scenario" not in facts:
-        raise RecordingError(f"{path}: says of no design that it was built: name a recording of train, play or build")
-    scenario = parse_scenario(facts["scenario"], f"{path}: its scenario")
-    game = _Told()
-    env, now, acts = ArenaEnv(game, scenario), 0.0, 0
-    asked: dict[str, Any] | None = None
-    episode: Episode | None = None
-    episodes: list[Episode] = []
-    damage = []
-    with _undamaged(path):
-        width, height = map(int, facts["size"].split("x"))
-        for each in read_recording(path):
-            if isinstance(each, PartEnd) and each.problem:
-                damage.append(f"{each.path.name}: {each.problem}")
-                episode = None
-            if isinstance(each, PartEnd | KeptPicture):
-                continue
-            now = _time_after(each.call, now)
-            kind, said = each.call[1:3] if each.call[0] == "note" else ("", {})
-            acts += kind == "acts"
-            if kind == "resets":
-                episode, material = None, said["material"]
-            elif kind == "stands":
-                game.outcome = Outcome(_cell(said["cell"]), None)
-                observation, info = env.reset(options={"material": scenario.materials[material].name})
-                episode = Episode(scenario, now, observation, info)
-                episodes.append(episode)
-            elif kind == "acts":
-                asked = said
-            elif kind == "done" and episode and asked and _cell(asked["cell"]) == env.cell:
-                instead = said.get("instead")
-                action = Action(asked["action"] if instead is None else instead)
-                material = asked.get("material", material)
-                placed = None if said["placed"] is None else _cell(said["placed"])
-                game.outcome = Outcome(_cell(said["cell"]), placed)
-                seen = env.step(step_in(scenario, action, material))
-                episode.steps.append(Step(action, material, game.outcome, *seen, now))
-                if seen[2] or seen[3]:
-                    episode = None
-    episodes = [each for each in episodes if each.steps]
-    if not episodes:
-        raise RecordingError(f"{path}: holds no action that was confirmed: name another recording")
-    return Played(path, (width, height), episodes, acts - sum(len(each.steps) for each in episodes), damage)
-
-
 class _Told:
     """A game whose outcomes are told it beforehand."""
 
     resumable = log = None
-
-    def __init__(self) -> None:
-        self.outcome = Outcome((0, 0), None)
+    outcome = Outcome((0, 0), None)
 
     def reset(self, _material: int) -> Cell:
         return self.outcome.cell
@@ -133,121 +79,135 @@ class _Told:
         return self.outcome
 
 
+def played_in(path: Path) -> Played:
+    """Return what was played in a recording; RecordingError if no action of a design's was confirmed in it."""
+    facts = facts_of(path)
+    if "scenario" not in facts:
+        raise RecordingError(f"{path}: names no design: name the recording of a training, a play or a build")
+    scenario = parse_scenario(facts["scenario"], f"{path}: its scenario")
+    game = _Told()
+    env = ArenaEnv(game, scenario)
+    episodes: list[Episode] = []
+    damage: list[str] = []
+    material, acts, is_known = 0, 0, False
+    asked: dict[str, Any] = {}
+    for now, (name, *said), _ in _calls_in(path):
+        if name == "lost":
+            damage.append(said[0])
+        kind, facts_now = (name, {}) if name != "note" else said
+        if kind in ("lost", "resets"):
+            material, is_known = facts_now.get("material", 0), False
+        elif kind == "stands":
+            game.outcome, is_known = Outcome(_cell(facts_now["cell"]), None), True
+            episodes.append(Episode(now, *env.reset(options={"material": scenario.materials[material].name})))
+        elif kind == "acts":
+            asked, acts = facts_now, acts + 1
+        elif kind == "done" and is_known and _cell(asked["cell"]) == env.cell:
+            instead, placed = facts_now.get("instead"), facts_now["placed"]
+            action = Action(asked["action"] if instead is None else instead)
+            material = asked.get("material", material)
+            game.outcome = Outcome(_cell(facts_now["cell"]), placed and _cell(placed))
+            step = Step(action, material, game.outcome, now, *env.step(step_in(scenario, action, material)))
+            episodes[-1].steps.append(step)
+            is_known = not (step.terminated or step.truncated)
+    episodes = [each for each in episodes if each.steps]
+    if not episodes:
+        raise RecordingError(f"{path}: no action was confirmed in it: name another recording")
+    width, height = map(int, facts["size"].split("x"))
+    return Played(path, scenario, (width, height), episodes, acts - sum(len(each.steps) for each in episodes), damage)
+
+
 @dataclass(frozen=True)
 class PlayedFrame:
-    """A moment of an episode.
+    """A moment of an episode, and of its step that was under way, or came next.
 
     Attributes:
-        episode: its number.
-        step: the number of the step that was under way, or came next.
         picture: the window, (height, width, 3), red green blue.
-        held: the keys and buttons that were down at some time until the next frame, as "w" and "mouse.left".
         pose: x, y, z, yaw and pitch, as read last.
+        held: the keys and buttons that were down until the next frame, as "w" and "mouse.left".
     """
 
     episode: int
-    step: int
+    step: Step
     picture: Frame
-    held: frozenset[str]
     pose: tuple[float, ...]
+    held: frozenset[str] = frozenset()
 
 
 def frames_of(played: Played, fps: int) -> Iterator[PlayedFrame]:
-    """Return the frames of its episodes, so many a second, each from its beginning to its last step's end."""
-    due = deque(moment for index, episode in enumerate(played.episodes) for moment in _moments_of(index, episode, fps))
-    shown, now, pictures = _Shown(played.size), 0.0, deque[KeptPicture]()
+    """Return the frames of all episodes, so many a second, each from its beginning to the end of its last step."""
+    due = deque(moment for index in range(len(played.episodes)) for moment in _moments_of(played, index, fps))
+    behind: Frame = np.full((*played.size[::-1], 3), BLANK, np.uint8)
+    lines, pose = None, [0.0] * 5
     held: set[str] = set()
     down: set[str] = set()
-    pose = [0.0] * 5
     frame: PlayedFrame | None = None
-    with _undamaged(played.path):
-        for each in read_recording(played.path):
-            if isinstance(each, KeptPicture):
-                pictures.append(each)
-            if isinstance(each, PartEnd | KeptPicture):
-                continue
-            now = _time_after(each.call, now)
-            while due and due[0][0] < now:
-                if frame:
-                    yield replace(frame, held=frozenset(down))
-                _, episode, step = due.popleft()
-                frame = None if step is None else PlayedFrame(episode, step, shown.picture(), frozenset(), tuple(pose))
-                down = set(held)
-            name, *said = each.call[each.call[0] == "elsewhere" :]
-            is_read = name == "screen" and said[0] in ("read", "read_position") and bool(said[2])
-            while pictures and pictures[0].at <= each.at:
-                picture = pictures.popleft()
-                if name == "grab" or (is_read and "problem" not in said[2]):
-                    shown.take(picture)
-            if name in ("key", "mouse") and said[0] in ("press", "release"):
-                key = said[1] if name == "key" else f"mouse.{said[1]}"
-                if said[0] == "press":
-                    held.add(key)
-                    down.add(key)
-                else:
-                    held.discard(key)
-            elif is_read:
-                read = said[2] if said[0] == "read" else {"xyz": said[2]}
-                pose = [*(read.get("xyz") or pose[:3]), read.get("yaw", pose[3]), read.get("pitch", pose[4])]
-                shown.lines = said[3] and said[3].get("text")
-            elif name == "note" and said[0] == "stands":
-                shown.forget()
-        if frame:
-            yield replace(frame, held=frozenset(down))
+    for now, (name, *said), pictures in _calls_in(played.path):
+        while due and due[0][0] < now:
+            if frame:
+                yield replace(frame, held=frozenset(down))
+            _, index, step = due.popleft()
+            frame = PlayedFrame(index, step, _picture(behind, lines), tuple(pose)) if step else None
+            down = set(held)
+        if name in ("key", "mouse") and said[0] in ("press", "release"):
+            key = said[1] if name == "key" else f"mouse.{said[1]}"
+            held = held | {key} if said[0] == "press" else held - {key}
+            down |= held
+        elif name == "screen" and said[0] in ("read", "read_position") and said[2] and "problem" not in said[2]:
+            read = said[2] if said[0] == "read" else {"xyz": said[2]}
+            pose = [*read.get("xyz", pose[:3]), read.get("yaw", pose[3]), read.get("pitch", pose[4])]
+            lines = said[3] and said[3].get("text")
+            _paste(behind, pictures)
+        elif name == "grab":
+            _paste(behind, pictures)
+        elif name == "note" and said[0] == "stands":
+            behind[:] = BLANK  # a menu that the reset came by, which names worlds and servers
+    if frame:
+        yield replace(frame, held=frozenset(down))
 
 
-def _moments_of(index: int, episode: Episode, fps: int) -> Iterator[tuple[float, int, int | None]]:
-    """Return the time of each frame of an episode, the episode's number and its step's, at last its end and None."""
-    number = 0
-    for step, done in enumerate(episode.steps):
-        while number == 0 or episode.began + number / fps < done.ended:
+def _moments_of(played: Played, index: int, fps: int) -> Iterator[tuple[float, int, Step | None]]:
+    """Return the time of each frame of an episode, with the episode's number and the step; at last the end, and None."""
+    episode, number = played.episodes[index], 0
+    for step in episode.steps:
+        while number == 0 or episode.began + number / fps < step.ended:
             yield episode.began + number / fps, index, step
             number += 1
-    yield done.ended, index, None
+    yield episode.steps[-1].ended, index, None
 
 
-class _Shown:
-    """What is known of the window's picture.
-
-    Args:
-        size: the window's width and height when the recording began; what lies outside is cut off.
-    """
-
-    def __init__(self, size: tuple[int, int]) -> None:
-        self._behind: Frame = np.full((size[1], size[0], 3), BLANK, np.uint8)
-        self.lines: Any = None
-
-    def forget(self) -> None:
-        """Forget the picture: a menu that a reset came by may be on it, which names worlds and servers."""
-        self._behind[:] = BLANK
-
-    def take(self, picture: KeptPicture) -> None:
-        frame = cv2.imdecode(np.frombuffer(picture.png, np.uint8), cv2.IMREAD_COLOR)
-        if frame is None:
-            raise ValueError("a picture that is none")
-        part = self._behind[Region(*picture.region).slices if picture.region else slice(None)]
-        height, width = (min(both) for both in zip(part.shape[:2], frame.shape[:2], strict=True))
-        part[:height, :width] = frame[:height, :width]
-
-    def picture(self) -> Frame:
-        picture = self._behind.copy()
-        if self.lines:
-            paint(picture, TextPixels.from_json(self.lines))
-        return np.ascontiguousarray(picture[..., ::-1])
+def _calls_in(path: Path) -> Iterator[tuple[float, list[Any], list[KeptPicture]]]:
+    """Return each call with its time and the pictures taken in it; ["lost", why] behind a file that ends early."""
+    now, pictures = 0.0, deque[KeptPicture]()
+    for each in read_recording(path):
+        if isinstance(each, KeptPicture):
+            pictures.append(each)
+        elif isinstance(each, PartEnd):
+            if each.problem:
+                yield now, ["lost", f"{each.path.name}: {each.problem}"], []
+        else:
+            call = each.call[each.call[0] == "elsewhere" :]
+            now = max(now, float(call[1])) if call[0] in ("now", "sleep") else now
+            count = sum(picture.at <= each.at for picture in pictures)
+            yield now, call, [pictures.popleft() for _ in range(count)]
 
 
-def _time_after(call: Sequence[Any], now: float) -> float:
-    return max(now, float(call[1])) if call[0] in ("now", "sleep") else now
+def _paste(behind: Frame, pictures: list[KeptPicture]) -> None:
+    """Draw pictures of the window, or of regions of it; what lies outside, since it was larger once, is cut off."""
+    for each in pictures:
+        frame = cv2.imdecode(np.frombuffer(each.png, np.uint8), cv2.IMREAD_COLOR)
+        part = behind[Region(*each.region).slices] if each.region else behind
+        if frame is not None:
+            height, width = np.minimum(part.shape[:2], frame.shape[:2])
+            part[:height, :width] = frame[:height, :width]
 
 
-def _cell(value: Sequence[int]) -> Cell:
-    x, y = value
-    return int(x), int(y)
+def _picture(behind: Frame, lines: Any) -> Frame:
+    picture = behind.copy()
+    if lines:
+        paint(picture, TextPixels.from_json(lines))
+    return np.ascontiguousarray(picture[..., ::-1])
 
 
-@contextmanager
-def _undamaged(path: Path) -> Iterator[None]:
-    try:
-        yield
-    except (KeyError, IndexError, TypeError, ValueError) as error:
-        raise RecordingError(f"{path}: what it says is damaged ({error!r}): cut that part away") from error
+def _cell(value: Any) -> Cell:
+    return int(value[0]), int(value[1])
