@@ -1,4 +1,4 @@
-"""Reads a dataset with LeRobot itself: ``python read_lerobot.py FOLDER INDEX...`` prints what it says of these frames."""
+"""Reads a dataset with LeRobot itself: ``python read_lerobot.py FOLDER INDEX...`` prints what it says of frames."""
 
 import json
 import sys
@@ -7,7 +7,7 @@ from typing import Any
 import torch
 
 # The compiled part of torchvision is that of another torch. The rest of it runs without, once this operator has a name.
-OPERATORS = torch.library.Library("torchvision", "DEF")
+OPERATORS: Any = torch.library.Library("torchvision", "DEF")  # type: ignore[no-untyped-call]
 OPERATORS.define("nms(Tensor dets, Tensor scores, float iou_threshold) -> Tensor")
 
 

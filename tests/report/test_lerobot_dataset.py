@@ -7,20 +7,17 @@ import sys
 from pathlib import Path
 
 import numpy as np
+import pyarrow.parquet as pq
 import pytest
 
 from mc_nested.live.recording.frames import Played, frames_of, played_in
+from mc_nested.report.lerobot_dataset import WINDOW, task_of, write_lerobot
 from scripts.programs import ROOT
 from tests.live.recording.recorded_play import record_play
 from tests.made_once import made_once
 from tests.recordings.test_recordings import VIRTUAL
 from tests.report.films import pictures_of
 
-pytest.importorskip("pyarrow")
-
-from mc_nested.report.lerobot_dataset import WINDOW, task_of, write_lerobot
-
-pq = pytest.importorskip("pyarrow.parquet")
 
 FPS = 10
 FIRST = "chunk-000/file-000"
@@ -48,9 +45,11 @@ def test_files_are_those_of_version_3(dataset: Path) -> None:
     info = json.loads((dataset / "meta/info.json").read_text())
     assert (info["codebase_version"], info["fps"], info["total_episodes"]) == ("v3.0", FPS, 3)
     table = pq.read_table(dataset / f"data/{FIRST}.parquet")
-    assert {*table.column_names, WINDOW} == info["features"].keys() == json.loads(
-        (dataset / "meta/stats.json").read_text()
-    ).keys()
+    assert (
+        {*table.column_names, WINDOW}
+        == info["features"].keys()
+        == json.loads((dataset / "meta/stats.json").read_text()).keys()
+    )
     assert table.num_rows == info["total_frames"] == len(pictures_of(dataset / f"videos/{WINDOW}/{FIRST}.mp4"))
 
 

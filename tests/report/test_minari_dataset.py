@@ -3,6 +3,7 @@
 from dataclasses import replace
 from pathlib import Path
 
+import minari
 import numpy as np
 import pytest
 
@@ -10,13 +11,10 @@ from mc_nested.arena.env import ArenaEnv
 from mc_nested.arena.scenario_file import load_scenario
 from mc_nested.errors import RecordingError
 from mc_nested.live.recording.frames import played_in
+from mc_nested.report.minari_dataset import write_minari
 from sim.grid import GridGame
 from tests.live.recording.recorded_play import record_play
 from tests.recordings.test_recordings import VIRTUAL
-
-minari = pytest.importorskip("minari")
-
-from mc_nested.report.minari_dataset import write_minari
 
 LINE = VIRTUAL / "rehearsal-window.mcap"
 

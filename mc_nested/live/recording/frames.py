@@ -28,7 +28,7 @@ from mc_nested.live.vision.chat_region import BLANK
 
 @dataclass(frozen=True)
 class Step:
-    """An action, confirmed at ``ended``, and what ``ArenaEnv.step`` returned; a person's own where they had taken over."""
+    """An action that was confirmed at ``ended``, a player's where they had taken over, and what ``ArenaEnv.step`` says."""
 
     action: Action
     material: int
@@ -167,7 +167,7 @@ def frames_of(played: Played, fps: int) -> Iterator[PlayedFrame]:
 
 
 def _moments_of(played: Played, index: int, fps: int) -> Iterator[tuple[float, int, Step | None]]:
-    """Return the time of each frame of an episode, with the episode's number and the step; at last the end, and None."""
+    """Return when each frame of an episode is, the episode's number, and its step; at last the end, with None."""
     episode, number = played.episodes[index], 0
     for step in episode.steps:
         while number == 0 or episode.began + number / fps < step.ended:

@@ -53,7 +53,7 @@ def notes(path: Path, kind: str) -> list[dict[str, Any]]:
 
 def steps_told(played: Played) -> list[tuple[int, list[int], list[int] | None]]:
     return [
-        (int(step.action), list(step.outcome.cell), step.outcome.placed and list(step.outcome.placed))  # type: ignore[misc]
+        (int(step.action), list(step.outcome.cell), step.outcome.placed and list(step.outcome.placed))
         for episode in played.episodes
         for step in episode.steps
     ]
@@ -190,7 +190,9 @@ def test_an_episode_begins_without_the_picture_of_what_was_before(
     monkeypatch.setattr(call_encoder, "PICTURE_EVERY_S", 1e9)
     record_play(tmp_path / "play", 3, seed=5)
     assert overview_of(tmp_path / "play").pictures == 1
-    assert all((frame.picture == BLANK).all(axis=2).mean() > 0.9 for frame in frames_of(played_in(tmp_path / "play"), 20))
+    assert all(
+        (frame.picture == BLANK).all(axis=2).mean() > 0.9 for frame in frames_of(played_in(tmp_path / "play"), 20)
+    )
 
 
 def test_recording_that_breaks_off_is_told_up_to_there(fresh: Path, tmp_path: Path) -> None:
@@ -235,9 +237,7 @@ def test_recording_without_actions_or_design_is_refused(
         played_in(tmp_path / "one.mcap")
 
 
-def test_a_part_that_was_cut_out_shows_the_same_pictures(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_part_that_was_cut_out_shows_the_same_pictures(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(call_encoder, "PICTURE_EVERY_S", 0.0)
     monkeypatch.setattr(call_encoder, "AT_ONCE", 10**9)
     record_play(tmp_path / "play", 3, seed=5)
