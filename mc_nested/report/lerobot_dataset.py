@@ -22,7 +22,7 @@ from mc_nested.report.film_file import Mp4Encoder
 WINDOW = "observation.images.window"
 
 NAMES = {"observation.state": ["x", "y", "z", "yaw", "pitch"], "arena.cell": ["x", "y"], "arena.placed": ["x", "y"]}
-"""The names of what is in a column; those of ``action`` are the keys and buttons that were ever down."""
+"""The names of what is in a column; those of ``action`` are keys and buttons: the right one, and all that were ever down."""
 
 _PLACE, _FIRST = "chunk-{chunk_index:03d}/file-{file_index:03d}", "chunk-000/file-000"
 
@@ -43,7 +43,7 @@ def write_lerobot(folder: Path, recordings: Sequence[Played], fps: int) -> str:
         (folder / name / _FIRST).parent.mkdir(parents=True)
     tasks = list(dict.fromkeys(task_of(each.scenario) for each in recordings))
     rows, dots = _filmed(folder / f"videos/{WINDOW}/{_FIRST}.mp4", recordings, fps, tasks)
-    keys = sorted({key for row in rows for key in row["action"]})
+    keys = sorted({"mouse.right", *(key for row in rows for key in row["action"])})
     for index, row in enumerate(rows):
         row |= {"action": np.array([key in row["action"] for key in keys], np.float32), "index": index}
     table = {name: np.array([row[name] for row in rows]).reshape(len(rows), -1) for name in rows[0]}
@@ -62,7 +62,17 @@ def write_lerobot(folder: Path, recordings: Sequence[Played], fps: int) -> str:
         "info": {"video.fps": fps, "video.codec": "h264", "video.pix_fmt": "yuv420p", "has_audio": False},
     }
     lengths = np.bincount(table["episode_index"][:, 0])
-    episodes = _episodes(lengths, [tasks[at] for at in table["task_index"][lengths.cumsum() - 1, 0]], fps)
+    ends, parts = lengths.cumsum(), ("data", "meta/episodes", f"videos/{WINDOW}")
+    episodes = {
+        "episode_index": range(len(lengths)),
+        "tasks": [[tasks[at]] for at in table["task_index"][ends - 1, 0]],
+        "length": lengths,
+        "dataset_from_index": ends - lengths,
+        "dataset_to_index": ends,
+        f"videos/{WINDOW}/from_timestamp": (ends - lengths) / fps,
+        f"videos/{WINDOW}/to_timestamp": ends / fps,
+        **{f"{part}/{number}_index": [0] * len(lengths) for part in parts for number in ("chunk", "file")},
+    }
     info = {
         "codebase_version": "v3.0",
         "robot_type": "mc-nested",
@@ -81,9 +91,9 @@ def write_lerobot(folder: Path, recordings: Sequence[Played], fps: int) -> str:
     pq.write_table(pa.table(columns), folder / f"data/{_FIRST}.parquet")
     pq.write_table(pa.table(episodes), folder / f"meta/episodes/{_FIRST}.parquet")
     pq.write_table(_indexed(tasks), folder / "meta/tasks.parquet")
-    (folder / "meta/info.json").write_text(json.dumps(info, indent=2), "utf-8")
     stats = {name: _stats(each) for name, each in {**table, WINDOW: dots}.items()}
-    (folder / "meta/stats.json").write_text(json.dumps(stats, indent=2), "utf-8")
+    for name, said in (("info", info), ("stats", stats)):
+        (folder / f"meta/{name}.json").write_text(json.dumps(said, indent=2), "utf-8")
     return f"{len(rows):,} frames"
 
 
@@ -120,20 +130,6 @@ def _filmed(
     finally:
         encoder.stop()
     return rows, np.concatenate(dots) / 255
-
-
-def _episodes(lengths: Any, tasks: Sequence[str], fps: int) -> Mapping[str, Any]:
-    ends, files = lengths.cumsum(), ("data", "meta/episodes", f"videos/{WINDOW}")
-    return {
-        "episode_index": range(len(lengths)),
-        "tasks": [[task] for task in tasks],
-        "length": lengths,
-        "dataset_from_index": ends - lengths,
-        "dataset_to_index": ends,
-        **{f"{file}/{number}_index": [0] * len(lengths) for file in files for number in ("chunk", "file")},
-        f"videos/{WINDOW}/from_timestamp": (ends - lengths) / fps,
-        f"videos/{WINDOW}/to_timestamp": ends / fps,
-    }
 
 
 def _indexed(tasks: Sequence[str]) -> Any:

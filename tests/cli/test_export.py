@@ -122,7 +122,6 @@ def test_the_card_has_the_runs_figures(exported: Path, trained: Path) -> None:
         f"| final score of each trial | {finals[0]:g}, {finals[1]:g} |",
         "| optimum | 21 |",
         "| trials, seed | 2, 3 |",
-        "| agent, preset | nested, paper |",
         "| training episodes, all trials | 80 of at most 80 |",
     ):
         assert row in text

@@ -18,7 +18,6 @@ from tests.made_once import made_once
 from tests.recordings.test_recordings import VIRTUAL
 from tests.report.films import pictures_of
 
-
 FPS = 10
 FIRST = "chunk-000/file-000"
 

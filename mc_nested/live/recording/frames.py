@@ -28,7 +28,7 @@ from mc_nested.live.vision.chat_region import BLANK
 
 @dataclass(frozen=True)
 class Step:
-    """An action that was confirmed at ``ended``, a player's where they had taken over, and what ``ArenaEnv.step`` says."""
+    """An action, confirmed at ``ended``, a player's where they had taken over, and what ``ArenaEnv.step`` returned."""
 
     action: Action
     material: int
