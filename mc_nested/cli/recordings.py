@@ -3,10 +3,9 @@
 import datetime
 from collections.abc import Sequence
 from dataclasses import dataclass
-from enum import Enum
 from functools import partial
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Literal
 
 import typer
 from rich.table import Column, Table
@@ -136,17 +135,12 @@ def cut_out(
     typer.echo(f"{out}: {calls:,} calls, {_state(overview_of(out))}")
 
 
-class Format(str, Enum):
-    """What recordings are exported as."""
-
-    LEROBOT = "lerobot"
-    MINARI = "minari"
-
-
 @app.command()
 def export(
     recordings: Annotated[list[Path], typer.Argument(metavar="REC...", help="recordings, each as for verify")],
-    form: Annotated[Format, typer.Option("--format", help="frames and video, or the Env's transitions")],
+    form: Annotated[
+        Literal["lerobot", "minari"], typer.Option("--format", help="frames and video, or the Env's transitions")
+    ],
     out: Annotated[Path, typer.Option(metavar="FOLDER", help="a new folder")],
     fps: Annotated[int, typer.Option(min=1, max=60, help="frames a second, of lerobot")] = 20,
 ) -> None:
@@ -154,7 +148,7 @@ def export(
     found = [played_in(recording_path(each)) for each in recordings]
     with whole_folder(out, RecordingError) as folder:
         try:
-            if form is Format.MINARI:
+            if form == "minari":
                 from mc_nested.report.minari_dataset import write_minari as write
             else:
                 from mc_nested.report.lerobot_dataset import write_lerobot
@@ -162,7 +156,7 @@ def export(
                 write = partial(write_lerobot, fps=fps)
         except ImportError as error:
             install = "pip install -c constraints.txt -e '.[share]'"
-            raise RecordingError(f"--format {form.value} needs {error.name}: {install}") from None
+            raise RecordingError(f"--format {form} needs {error.name}: {install}") from None
         what = write(folder, found)
     for played in found:
         actions = [f"{played.left_out} actions"] if played.left_out else []
