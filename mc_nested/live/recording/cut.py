@@ -113,12 +113,13 @@ def _batches(path: Path, first: int, last: int) -> Iterator[tuple[list[Timed], l
         if isinstance(each, PartEnd):
             continue
         if isinstance(each, KeptPicture):
-            if calls:
-                pictures.append((calls[-1][0], each))
-            before = each
+            if first <= each.at <= last:
+                pictures.append((each.at, each))
+            else:
+                before = each
         elif first <= each.at <= last:
-            if not calls and before is not None:
-                pictures.append((each.at, before))
+            if before is not None:
+                pictures.insert(0, (before.at, before))
             before = None
             calls.append((each.at, each.call))
             if len(calls) >= _BATCH:
