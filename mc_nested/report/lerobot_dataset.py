@@ -22,7 +22,7 @@ from mc_nested.report.film_file import Mp4Encoder
 WINDOW = "observation.images.window"
 
 NAMES = {"observation.state": ["x", "y", "z", "yaw", "pitch"], "arena.cell": ["x", "y"], "arena.placed": ["x", "y"]}
-"""Names of a column's values; those of ``action`` are the keys and buttons that were ever down, and the right button."""
+"""Names of a column's values; those of ``action`` are the keys and buttons that were ever down, and right button."""
 
 _PLACE, _FIRST = "chunk-{chunk_index:03d}/file-{file_index:03d}", "chunk-000/file-000"
 
