@@ -1,13 +1,12 @@
-"""A bug report: the doctor's table, the profile, the versions and a recording's end in one file, without names or chat.
+"""A bug report: the doctor's table, the profile, the versions and recordings' ends in one file, without names or chat.
 
 The chat was never recorded. Home folders and names of accounts are taken out as in the calibration report.
 """
 
-import dataclasses
 import json
 import tempfile
 import zipfile
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from calibration.doctor.check import Check
@@ -26,7 +25,13 @@ _OF_RECORDING = ("what", "version", "python", "system", "size", "window", "monit
 
 
 def write_bug_report(
-    out: Path, checks: Sequence[Check], profile: str | None, recording: Path | None, seconds: float, names: Names
+    out: Path,
+    checks: Sequence[Check],
+    profile: str | None,
+    recordings: Mapping[str, Path],
+    seconds: float,
+    names: Names,
+    texts: Mapping[str, str] | None = None,
 ) -> list[str]:
     """Write the report, and say what is in it, a line for each part.
 
@@ -34,28 +39,29 @@ def write_bug_report(
         out: the zip file to write.
         checks: the doctor's rows.
         profile: the profile's text; None if there is none.
-        recording: the recording to take the end of; None if there is none.
-        seconds: how much of it.
+        recordings: the recordings to take the ends of, by the names that they get.
+        seconds: how much of each.
         names: what is taken out.
+        texts: more files by their names, from which it was taken out already.
 
     Raises:
         RecordingError: the recording can't be used, or the file can't be written.
     """
-    parts: dict[str, bytes] = {}
+    parts = {name: text.encode() for name, text in (texts or {}).items()}
     said = []
-    rows = [dataclasses.asdict(check) for check in checks]
-    parts[DOCTOR] = names.removed_from(json.dumps({"checks": rows}, indent=2, ensure_ascii=False)).encode()
+    rows = [{each: names.removed_from(str(said)) for each, said in vars(check).items()} for check in checks]
+    parts[DOCTOR] = json.dumps({"checks": rows}, indent=2, ensure_ascii=False).encode()
     said.append(f"{DOCTOR}: the {len(rows)} rows of mc-nested doctor")
     if profile is not None:
         parts[PROFILE] = names.removed_from(profile).encode()
         said.append(f"{PROFILE}: the profile, {len(profile.splitlines())} lines")
     versions: dict[str, object] = {**versions_here()}
-    said.append(f"{VERSIONS}: of mc-nested, Python and the system")
-    if recording is not None:
+    said.append(about := f"{VERSIONS}: of mc-nested, Python and the system")
+    for file_name, recording in recordings.items():
         facts = facts_of(recording)
         versions["recording"] = known = {name: facts[name] for name in _OF_RECORDING if name in facts}
-        said[-1] += f"; of the recording: {', '.join(known)}"
-        parts[RECORDING], lines = _end_of(recording, seconds, names)
+        said[said.index(about)] = about = f"{about.split(';')[0]}; of the recording: {', '.join(known)}"
+        parts[file_name], lines = _end_of(recording, file_name, seconds, names)
         said += lines
     parts[VERSIONS] = names.removed_from(json.dumps(versions, indent=2, ensure_ascii=False)).encode()
     with (
@@ -68,17 +74,17 @@ def write_bug_report(
     return said
 
 
-def _end_of(recording: Path, seconds: float, names: Names) -> tuple[bytes, list[str]]:
+def _end_of(recording: Path, name: str, seconds: float, names: Names) -> tuple[bytes, list[str]]:
     """Return the end of a recording, and what is in it, in lines."""
     ended = overview_of(recording).ended
     if ended is None:
         raise RecordingError(f"{recording}: holds nothing: name another recording, or --no-recording")
     with tempfile.TemporaryDirectory() as folder:
-        path = Path(folder) / RECORDING
+        path = Path(folder) / name
         cut(recording, path, ended - round(seconds * 1e9), ended, names.removed_from)
         seen = overview_of(path)
         return path.read_bytes(), [
-            f"{RECORDING}: the last {seen.seconds:.0f} s of {recording.name}: {seen.actions} actions",
-            f"{RECORDING}: every key and click; {seen.pictures} pictures of the game's window, the chat blanked",
+            f"{name}: the last {seen.seconds:.0f} s of {recording.name}: {seen.actions} actions",
+            f"{name}: every key and click; {seen.pictures} pictures of the game's window, the chat blanked",
             f"what may be seen on its pictures: {SEEN}",
         ]

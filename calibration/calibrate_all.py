@@ -17,7 +17,7 @@ from typing import Protocol
 from calibration.acceptance_test import run_acceptance_test
 from calibration.arena.build import build_arena
 from calibration.arena.mark import check_standing
-from calibration.arena.undo import remove_saved_copy_note, undo_hint_on_error
+from calibration.arena.undo import remove_saved_copy_note
 from calibration.clicks.find import find_clicks_unattended
 from calibration.context import CalibrationContext, OpenContext, StepResult
 from calibration.cross_check import cross_check
@@ -162,6 +162,14 @@ GATES = frozenset(
 )
 """The doctor's checks without which nothing can be calibrated. Other failures are mended by a step, or do no harm."""
 
+
+def check_gates(checks: Sequence[Check]) -> None:
+    """Raise DesktopError, which says what to do, if a gate fails."""
+    for check in checks:
+        if check.status == "fail" and check.name in GATES:
+            raise DesktopError(f"{check.name}: {check.detail}: {check.fix or 'run mc-nested doctor'}")
+
+
 Examine = Callable[[str], Sequence[Check]]
 """The doctor's checks for the profile of that name."""
 
@@ -202,11 +210,9 @@ def calibrate_all(
     """
     path, profile = starting_profile(profile_name)
     checks = examine(profile_name)
-    for check in checks:
-        if check.status == "fail" and check.name in GATES:
-            raise DesktopError(f"{check.name}: {check.detail}: {check.fix or 'run mc-nested doctor'}")
+    check_gates(checks)
     progress.doctor_done(checks)
-    with undo_hint_on_error(path), open_context(profile) as context:
+    with open_context(profile) as context:
         display = context.devices.display
         context.connection.check_single_player()
         profile = profile.model_copy(update={"game": game_in(display.title(), profile.game)})
@@ -215,8 +221,7 @@ def calibrate_all(
         fingerprint = _fingerprint(run, context.devices, today or datetime.date.today().isoformat())
     run = dataclasses.replace(run, profile=run.profile.model_copy(update={"calibrated": fingerprint}))
     points = tuple(point for result in run.results for point in result.points)
-    with undo_hint_on_error(path):
-        write_result(StepResult("all", run.profile, (), 0, points=points), path)
+    write_result(StepResult("all", run.profile, (), 0, points=points), path)
     remove_saved_copy_note(run.profile, path)
     checks = examine(profile_name)
     save_findings_or_warn(context.say, path, run.results, checks, fingerprint.date)

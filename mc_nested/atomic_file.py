@@ -49,6 +49,24 @@ def atomic_write(path: Path) -> Iterator[Path]:
 
 
 @contextmanager
+def whole_folder(path: Path, kind: type[UserError]) -> Iterator[Path]:
+    """Yield a new folder to write to, which becomes ``path`` when the block ends, or is removed after an error.
+
+    Raise ``kind``, one line, if there is something already, or the disk refuses.
+    """
+    if path.exists():
+        raise kind(f"{path}: is there already: name a new folder, nothing was overwritten")
+    unfinished = path.with_name(f"{path.name}.{secrets.token_hex(4)}{SUFFIX}")
+    try:
+        with refused_as(kind, path, "name another folder, or make room"):
+            unfinished.mkdir(parents=True)
+            yield unfinished
+            unfinished.rename(path)
+    finally:
+        shutil.rmtree(unfinished, ignore_errors=True)
+
+
+@contextmanager
 def refused_as(kind: type[UserError], what: Path, remedy: str) -> Iterator[None]:
     """Raise ``kind`` where the disk refuses what the block does: one line that says what, why and the remedy."""
     try:

@@ -8,6 +8,7 @@ import signal
 import subprocess
 import sys
 import time
+import zipfile
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -44,6 +45,8 @@ F12, F9, S, A = 96, 75, 39, 38
 
 LONGEST_CALIBRATION_S = 180.0
 """On a machine that may be busy; `bench.py rehearsal` asks for 100."""
+LONGEST_TRY_S = 600.0
+"""What a volunteer is promised."""
 ACTIONS = 20
 CURRENT = "26.3"
 """What people play: its options are at their defaults, and the debug text lies over its menus, smaller than they."""
@@ -121,7 +124,25 @@ def test_a_policy_learnt_in_the_simulator_builds_its_design(
 
 
 @pytest.mark.usefixtures("window_programs")
-def test_the_line_is_learnt_and_built_in_the_window_of_a_current_version(tmp_path: Path) -> None:
+def test_a_current_version_is_tried_by_a_volunteer_and_all_is_put_back(tmp_path: Path) -> None:
+    out = tmp_path / "out"
+    with open_display() as env, open_rehearsal(env, tmp_path, "--version", CURRENT) as rehearsal:
+        before, began = without_air(rehearsal.truth.built()), time.monotonic()
+        said = mc_nested("try-it", "--yes", "--font", rehearsal.font, "--out", out, env=rehearsal.env)
+        assert time.monotonic() - began < LONGEST_TRY_S
+        assert f"please send {out / 'out.zip'}" in said
+        assert without_air(rehearsal.truth.built()) == before
+        assert rehearsal.truth.keys_left_down() == []
+        with zipfile.ZipFile(out / "out.zip") as file:
+            file.extractall(tmp_path / "sent")
+        for name in ("1-calibration", "2-actions", "3-line", "4-undo"):
+            recording = tmp_path / "sent" / f"{name}.mcap"
+            words = ("replay", recording, "--font", rehearsal.font, "--json")
+            assert json.loads(mc_nested(*words, env=rehearsal.env))["differences"] == []
+
+
+@pytest.mark.usefixtures("window_programs")
+def test_a_current_version_has_the_line_learnt_and_built_in_its_window(tmp_path: Path) -> None:
     profile, run, line = tmp_path / "profile.toml", tmp_path / "run", load_scenario("line")
     with open_display() as env, open_rehearsal(env, tmp_path, "--version", CURRENT) as rehearsal:
         calibrate(rehearsal, profile)

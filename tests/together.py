@@ -8,6 +8,7 @@ from xdist.scheduler import LoadScopeScheduling  # type: ignore[import-untyped]
 
 TOGETHER = {
     "tests/windows/": "a Wine desktop, whose folder no second one may use",
+    "tests/test_rehearsal_end_to_end.py::test_a_current_version_": "a machine, on which each slows another",
     "tests/test_games_end_to_end.py": "a window with its arena",
     "tests/live/desktop/test_xwayland.py": "Wayland desktops",
     "tests/test_installers.py": "a folder of packages",

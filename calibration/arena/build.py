@@ -35,6 +35,8 @@ from mc_nested.live.profile.tables import Profile
 from mc_nested.live.vision.chat_region import without_chat
 from mc_nested.live.vision.game_screen import seen_gui_scale
 
+NO_COPY = "No copy can be kept here: this can't be undone."
+
 
 def build_question(arena: Arena, ground: GroundSurvey, old: Arena | None, materials: Sequence[str]) -> str:
     """Return the question before anything is changed: what stands there, and what will be done."""
@@ -54,7 +56,7 @@ def build_question(arena: Arena, ground: GroundSurvey, old: Arena | None, materi
     if ground.copy_to is not None:
         parts.append(f"What stands there is copied to {ground.copy_to} first, and --undo puts it back.")
     elif arena.copied_to is None:
-        parts.append("No copy can be kept here: this can't be undone.")
+        parts.append(NO_COPY)
     if old is not None and old.copied_to is not None and arena.copied_to is None:
         parts.append(f"The copy at {old.copied_to}, of what stood at the arena before this one, will be forgotten.")
     return " ".join(parts)

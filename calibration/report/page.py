@@ -31,14 +31,21 @@ from mc_nested.live.profile.tables import Profile
 from mc_nested.toml_file import read_toml_text
 
 TITLES: Mapping[str, str] = {
+    "try-it": "What was tried",
+    "question": "The question",
+    "doctor": "Doctor",
+    "calibration": "Calibration",
     "font": "Font and screen",
     "arena": "Arena",
     "walk": "Walk",
     "clicks": "Click points",
     "cross-check": "F3+C against the reader",
     "proof": "Acceptance test",
+    "actions": "Forty actions",
+    "line": "The line",
+    "undo": "Put back",
 }
-"""The steps' titles, in the order of the guided run; any other step has its name as title."""
+"""The steps' titles, in the order of the guided run and of a volunteer's; any other step has its name as title."""
 
 SEEN = "the place where you stood, the game's and the computer's lines on the debug screen, the names of your worlds"
 """The personal things that the pictures of a whole calibration show."""
@@ -54,7 +61,10 @@ JPEG_QUALITY = 88
 
 @dataclass(frozen=True)
 class CalibrationReport:
-    """The contents of a report. ``text`` is the profile's file, comments included; ``version`` this program's."""
+    """The contents of a report, of ``what``.
+
+    ``text`` is the profile's file, comments included; ``version`` this program's.
+    """
 
     name: str
     profile: Profile
@@ -62,6 +72,7 @@ class CalibrationReport:
     findings: Findings
     version: str
     with_pictures: bool = True
+    what: str = "Calibration"
 
 
 def contents(report: CalibrationReport) -> list[str]:
@@ -104,6 +115,7 @@ def _page(report: CalibrationReport) -> dict[str, Any]:
     statuses = Counter(check.status for check in findings.checks)
     return {
         "name": report.name,
+        "what": report.what,
         "program": f"mc-nested {report.version}",
         "contents": contents(report),
         "tiles": _tiles(report),

@@ -30,6 +30,9 @@ _ELSEWHERE = re.compile(
     r"""|(?P<unix>/home/+)[^\\/\s"'<>|:*?]+""",
     re.IGNORECASE,
 )
+_TITLES = re.compile(r"(windows on this desktop: ).*")
+"""What an error lists of other programs' windows: their titles are a person's own."""
+
 _LETTER = r"[^\W\d_]"
 _END = r"""(?=$|[\\/\s"'`:;,)\]}>])"""
 """What may follow a folder's whole name."""
@@ -58,7 +61,11 @@ class Names:
         return re.compile(rf"{USER}|(?<!{_LETTER})(?:{alone})(?!{_LETTER})", re.IGNORECASE)
 
     def removed_from(self, text: str) -> str:
-        """Return the text without them. Removing them twice is the same as removing them once."""
+        """Return the text without them, and without the titles of other windows.
+
+        Removing them twice is the same as removing them once.
+        """
+        text = _TITLES.sub(r"\1left out", text)
         if self._home is not None:
             text = self._home.sub(HOME, text)
         text = _ELSEWHERE.sub(lambda found: (found["windows"] or found["unix"]) + USER, text)

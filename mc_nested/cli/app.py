@@ -32,6 +32,8 @@ VERBS = {
     "calibrate": "Tell the agent where your arena and your buttons are.",
     "profiles": "List your profiles, look at one, rename it, delete it; alone it lists them.",
     "doctor": "Look at this computer, the game's window and its options: each row with the one thing to do.",
+    "try-it": "Try everything in your game in a few minutes, and make one file of what happened, to send to those who "
+    "ask.",
     "rehearse": "Open a window that looks and acts like the game, to calibrate and train in without Minecraft; "
     "close it to end.",
     "recordings": "List the recordings that are kept; verify, trim and cut them.",
@@ -63,11 +65,12 @@ def app_with(loaded: Collection[str]) -> TyperGroup:
         if verb not in loaded:
             app.command(verb, help=VERBS.get(verb), hidden=verb in HIDDEN)(lambda: None)
             continue
-        module = importlib.import_module(f"mc_nested.cli.{HIDDEN.get(verb, verb)}")
+        name = verb.replace("-", "_")
+        module = importlib.import_module(f"mc_nested.cli.{HIDDEN.get(verb, name)}")
         if verb not in HIDDEN and hasattr(module, "app"):  # verbs of its own
             app.add_typer(module.app, name=verb)
         else:
-            app.command(verb, hidden=verb in HIDDEN)(getattr(module, verb))
+            app.command(verb, hidden=verb in HIDDEN)(getattr(module, name))
     command = cast("TyperGroup", typer.main.get_command(app))
     command.commands = {verb: command.commands[verb] for verb in (*VERBS, *HIDDEN)}  # Typer puts groups last
     _end_help_with_json_fields(command)

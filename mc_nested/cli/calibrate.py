@@ -11,18 +11,17 @@ import typer
 
 from calibration.arena.build import calibrate_built_arena
 from calibration.arena.mark import mark_arena
-from calibration.arena.undo import undo_built_arena
+from calibration.arena.undo import undo_built_arena, undo_hint_on_error
 from calibration.calibrate_all import calibrate_all as calibrate_every_step
 from calibration.calibrate_all import registered_steps
 from calibration.clicks.find import calibrate_clicks
 from calibration.clicks.points import show_clicks, try_clicks
 from calibration.context import OpenContext, StepResult, context_opener
 from calibration.doctor.check import Check
-from calibration.doctor.examination import examine
 from calibration.font.find import calibrate_font
-from calibration.installation.folders import System
 from calibration.report.page import TITLES, report_path, write_report
 from calibration.walk.measure import calibrate_walk
+from mc_nested.cli.doctor import examined
 from mc_nested.cli.options import (
     DEFAULT_PROFILE,
     ForScenarioOption,
@@ -39,7 +38,6 @@ from mc_nested.cli.options import (
 from mc_nested.cli.output import JsonOption, Output, QuietOption, prints
 from mc_nested.cli.view import StepViewOption, ViewOption, viewed
 from mc_nested.errors import ProfileError, UserError
-from mc_nested.live.desktop import open_clipboard
 from mc_nested.live.profile.store import profile_path, undo_profile
 from mc_nested.live.session import Opening
 from mc_nested.view.publisher import Publisher
@@ -118,14 +116,14 @@ def calibrate_all(  # noqa: PLR0913 - a Typer verb: a parameter for each option
 ) -> None:
     """Do all of it in one go, in about two minutes: stand on the arena's near edge, and look across it and down."""
     output = Output(quiet, as_json)
-    steps = registered_steps(
-        font, size=arena_size(size, scenario, layer), standing=standing, path=profile_path(profile)
-    )
+    path, size = profile_path(profile), arena_size(size, scenario, layer)
+    steps = registered_steps(font, size=size, standing=standing, path=path)
     opening = _opening("all", profile, record, server_allowed=server_allowed, say=output.instruction)
     ask = partial(typer.confirm, err=as_json)
-    with calibrating("all", opening, is_viewed=view, ask=ask, yes=yes) as opened:
+    calibration = calibrating("all", opening, is_viewed=view, ask=ask, yes=yes)
+    with calibration as opened, undo_hint_on_error(path):
         shown = Lines(output.note, opened.publisher)
-        whole = calibrate_every_step(profile, opened.context_of, partial(_examined, font), steps, shown)
+        whole = calibrate_every_step(profile, opened.context_of, lambda name: examined(name, font).checks, steps, shown)
     left_out = [TITLES.get(name, name) for name in whole.run.skipped]
     without = f", without: {', '.join(left_out)}" if left_out else ""
     said: list[str] = []
@@ -290,11 +288,6 @@ class Lines:
         """Say why the step is left out."""
         self.seconds += seconds
         self._say(f"    warning: {reason}; the run goes on without it")
-
-
-def _examined(font: Path | None, profile_name: str) -> Sequence[Check]:
-    say = partial(typer.echo, err=True)
-    return examine(profile_name, say=say, system=System.here(), clipboard=open_clipboard(), font=font).checks
 
 
 def _opening(

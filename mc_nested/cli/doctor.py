@@ -11,7 +11,7 @@ from rich.constrain import Constrain
 from rich.table import Table
 from rich.text import Text
 
-from calibration.bug_report import write_bug_report
+from calibration.bug_report import RECORDING, write_bug_report
 from calibration.doctor.check import Check, Status
 from calibration.doctor.examination import Examination, examine
 from calibration.doctor.repair import repair
@@ -61,9 +61,9 @@ def doctor(
     """Look at this computer, the game's window and its options: each row with the one thing to do."""
     if not is_alone(context):
         return
-    found = _examined(profile)
+    found = examined(profile)
     if fix and repair(found, partial(typer.echo, err=True)):
-        found = _examined(profile)
+        found = examined(profile)
     table = Constrain(table_of(found.checks), WIDTH)
     counts = {status: sum(check.status == status for check in found.checks) for status in STYLES}
     summary = ", ".join(f"{count} {status}" for status, count in counts.items() if count)
@@ -85,10 +85,10 @@ def bug_report(
     """Put the doctor's table, the profile, versions and a recording's end into one file, and say what is in it."""
     if out.exists():
         raise RecordingError(f"{out}: is there already: name a new file with --out FILE")
-    kept = None
+    kept = {}
     if not no_recording and (recording is not None or kept_recordings()):
-        kept = last_recording() if recording is None else recording_path(recording)
-    checks = _examined(profile).checks
+        kept[RECORDING] = last_recording() if recording is None else recording_path(recording)
+    checks = examined(profile).checks
     path = profile_path(profile)
     text = path.read_text("utf-8-sig") if path.is_file() else None
     said = write_bug_report(out, checks, text, kept, minutes * 60, names_here())
@@ -159,6 +159,7 @@ def table_of(checks: Sequence[Check]) -> Table:
     return table
 
 
-def _examined(profile: str) -> Examination:
+def examined(profile: str, font: Path | None = None) -> Examination:
+    """Examine this computer and its game, read with that font, or one that is found."""
     say = partial(typer.echo, err=True)
-    return examine(profile, say=say, system=System.here(), clipboard=open_clipboard())
+    return examine(profile, say=say, system=System.here(), clipboard=open_clipboard(), font=font)

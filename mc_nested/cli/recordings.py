@@ -3,17 +3,20 @@
 import datetime
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Literal
 
 import typer
 from rich.table import Column, Table
 
 from calibration.report.privacy import names_here
+from mc_nested.atomic_file import whole_folder
 from mc_nested.cli.options import is_alone
 from mc_nested.cli.output import JsonOption, Output, prints
 from mc_nested.errors import RecordingError
 from mc_nested.live.recording.cut import cut, trim
+from mc_nested.live.recording.frames import played_in
 from mc_nested.live.recording.recording_file import Overview, overview_of
 from mc_nested.live.recording.run_recorder import is_recording, kept_recordings, recordings_folder
 
@@ -130,6 +133,37 @@ def cut_out(
     begin, clean = seen.began + round(first * 1e9), names_here().removed_from
     calls = cut(path, out, begin, end, clean, with_pictures=not no_pictures)
     typer.echo(f"{out}: {calls:,} calls, {_state(overview_of(out))}")
+
+
+@app.command()
+def export(
+    recordings: Annotated[list[Path], typer.Argument(metavar="REC...", help="recordings, each as for verify")],
+    form: Annotated[
+        Literal["lerobot", "minari"], typer.Option("--format", help="frames and video, or the Env's transitions")
+    ],
+    out: Annotated[Path, typer.Option(metavar="FOLDER", help="a new folder")],
+    fps: Annotated[int, typer.Option(min=1, max=60, help="frames a second, of lerobot")] = 20,
+) -> None:
+    """Write what was played in recordings as a dataset that others can learn from, the chat blanked."""
+    found = [played_in(recording_path(each)) for each in recordings]
+    with whole_folder(out, RecordingError) as folder:
+        try:
+            if form == "minari":
+                from mc_nested.report.minari_dataset import write_minari as write
+            else:
+                from mc_nested.report.lerobot_dataset import write_lerobot
+
+                write = partial(write_lerobot, fps=fps)
+        except ImportError as error:
+            install = "pip install -c constraints.txt -e '.[share]'"
+            raise RecordingError(f"--format {form} needs {error.name}: {install}") from None
+        what = write(folder, found)
+    for played in found:
+        actions = [f"{played.left_out} actions"] if played.left_out else []
+        if missing := [*actions, *played.damage]:
+            typer.echo(f"{played.path}: left out: {'; '.join(missing)}", err=True)
+    episodes = [each for played in found for each in played.episodes]
+    typer.echo(f"{out}: {what}, {len(episodes):,} episodes, {sum(len(each.steps) for each in episodes):,} actions")
 
 
 def _found(path: Path) -> RecordingFound:

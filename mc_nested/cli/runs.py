@@ -10,13 +10,16 @@ from rich.filesize import decimal
 from rich.table import Table
 from rich.text import Text
 
+from calibration.report.privacy import names_here
 from mc_nested.arena.env import ArenaEnv
+from mc_nested.atomic_file import whole_folder
 from mc_nested.cli.completion import RUNS, complete_runs
 from mc_nested.cli.options import RunArgument, is_alone
 from mc_nested.cli.output import FittingTable, JsonOption, Output, facts_table, prints
 from mc_nested.errors import RunError
 from mc_nested.learn.agents import Agent
 from mc_nested.learn.evaluation import GreedyEpisode, build_greedily, play_greedily
+from mc_nested.learn.runs.exported_run import export_run
 from mc_nested.learn.runs.folder_lock import delete_folder, rename_folder
 from mc_nested.learn.runs.run_folder import RunFolder
 from mc_nested.studies.run_facts import RunFacts, facts_of, runs_in
@@ -127,6 +130,16 @@ def greedy_episodes(folder: RunFolder, agent: Agent) -> list[GreedyEpisode]:
     arenas = team_arenas(folder.team, trials) if folder.team else GridVectorEnv(folder.scenarios)
     env = agent.view_of(arenas, folder.scenarios)
     return play_greedily(env, folder.scenarios, agent)
+
+
+@app.command()
+def export(
+    run: RunArgument, out: Annotated[Path, typer.Option(metavar="FOLDER", help="a new folder, for a hub's models")]
+) -> None:
+    """Write a run as a model to share: its networks, a card with its figures, no names; play takes it as a run."""
+    with whole_folder(out, RunError) as folder:
+        export_run(RunFolder.open(run), folder, out.name, names_here().removed_from)
+    typer.echo(f"{out}: {', '.join(sorted(each.name for each in out.iterdir()))}")
 
 
 @app.command()

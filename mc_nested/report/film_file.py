@@ -119,10 +119,11 @@ class Mp4Encoder:
     Args:
         path: the file.
         fps: pictures a second.
+        whole_every: after so many pictures one is written whole again, which others are read from.
     """
 
-    def __init__(self, path: Path, fps: int) -> None:
-        self._path, self._fps = path, fps
+    def __init__(self, path: Path, fps: int, whole_every: int = 250) -> None:
+        self._path, self._fps, self._whole_every = path, fps, whole_every
         self._ffmpeg: subprocess.Popen[bytes] | None = None
         # Not a pipe: that could fill up while pictures are written, since nobody reads it then.
         self._said = tempfile.TemporaryFile()  # noqa: SIM115 - closed by stop
@@ -165,8 +166,9 @@ class Mp4Encoder:
 
     def _started(self, width: int, height: int) -> "subprocess.Popen[bytes]":
         pictures = ["-f", "rawvideo", "-pix_fmt", "rgb24", "-s", f"{width}x{height}", "-r", f"{self._fps}", "-i", "-"]
+        written = [*H264, "-g", f"{self._whole_every}", "-movflags", "+faststart", "-f", "mp4", "-y", f"{self._path}"]
         return subprocess.Popen(  # noqa: S603 - imageio-ffmpeg's
-            [check_ffmpeg(), "-v", "error", *pictures, *H264, "-movflags", "+faststart", "-f", "mp4", "-y", self._path],
+            [check_ffmpeg(), "-v", "error", *pictures, *written],
             stdin=subprocess.PIPE,
             stdout=subprocess.DEVNULL,
             stderr=self._said,

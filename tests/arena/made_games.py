@@ -1,9 +1,33 @@
-"""A Game that holds whoever plays it to what was announced."""
+"""Games made for tests: one that holds whoever plays it to what was announced, and one in which a person acts."""
+
+from dataclasses import replace
 
 from mc_nested.arena.action import Action, Cell
 from mc_nested.arena.game import Following, Outcome
 from mc_nested.arena.scenario import Scenario
 from sim.grid import GridGame
+
+PERSON = (Action.R, Action.FD)
+"""What a person does in the first two steps of each episode."""
+
+
+class PlayedByAPerson(GridGame):
+    """The rules; in the first two steps of the first ``episodes``, a person acts in place of whoever plays."""
+
+    def __init__(self, scenario: Scenario, episodes: int) -> None:
+        super().__init__(scenario)
+        self._episodes, self._left = episodes, list[Action]()
+
+    def reset(self, material: int) -> Cell:
+        self._left = list(PERSON) if self._episodes else []
+        self._episodes = max(0, self._episodes - 1)
+        return super().reset(material)
+
+    def act(self, action: Action, material: int | None = None, following: Following | None = None) -> Outcome:
+        if not self._left:
+            return super().act(action, material, following)
+        done = self._left.pop(0)
+        return replace(super().act(done, material), instead=done)
 
 
 class TakesAtItsWord(GridGame):

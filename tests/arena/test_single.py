@@ -16,7 +16,7 @@ from mc_nested.arena.single import SingleAgentVectorEnv
 from mc_nested.arena.vector import ArenaVectorEnv
 from sim.grid import GridVectorEnv, arena_env
 from sim.team_grid import TeamGrid
-from tests.arena.made_games import TakesAtItsWord
+from tests.arena.made_games import PlayedByAPerson, TakesAtItsWord
 from tests.arena.made_parts import STRIPES, scenarios_with_parts
 
 LINE = load_scenario("line")
@@ -285,3 +285,15 @@ def test_a_restored_episode_of_several_agents_continues_as_the_saved_one() -> No
     other.restore(env.snapshot())
     for one, same in zip(env.step(np.array([BD, B]))[:4], other.step(np.array([BD, B]))[:4], strict=True):
         np.testing.assert_array_equal(one, same)
+
+
+def test_what_a_person_did_instead_is_told_as_one_of_the_ten_actions() -> None:
+    games = [PlayedByAPerson(LINE, 1), PlayedByAPerson(LINE, 0)]
+    env = SingleAgentVectorEnv(ArenaVectorEnv([ArenaEnv(game, LINE) for game in games]), [LINE, LINE])
+    env.reset()
+    chosen = env.step(np.array([STONE, STONE]))
+    first, second, third = (env.step(np.array([FIRST_MOVE, FIRST_MOVE]))[-1] for _ in range(3))
+    assert "instead" not in chosen[-1]
+    assert (first["instead"][0], first["_instead"].tolist()) == (FIRST_MOVE + Action.R, [True, False])
+    assert (second["instead"][0], second["_instead"].tolist()) == (FIRST_MOVE + Action.FD, [True, False])
+    assert "instead" not in third

@@ -212,15 +212,13 @@ def test_findings_that_cannot_be_saved_do_not_end_the_run(client: VirtualClient,
 
 
 @pytest.mark.parametrize("last", [broken, stopped])
-def test_run_that_ends_after_building_the_arena_says_how_to_undo_it_and_undo_works(
-    last: StepFunction, tmp_path: Path
-) -> None:
+def test_run_that_ends_after_building_the_arena_can_be_undone(last: StepFunction, tmp_path: Path) -> None:
     client = VirtualClient()
     client.realm.world.put((3, 64, 6), "stone")
     before, file = client.built, tmp_path / "new.toml"
     arena = CalibrationStep("arena", partial(build_arena, path=file))
     font = Profile(screen=ScreenTable(font=str(write_font(tmp_path))))
-    with pytest.raises((LiveError, KeyboardInterrupt)) as ended:
+    with pytest.raises((LiveError, KeyboardInterrupt)):
         run(
             client,
             file,
@@ -228,8 +226,6 @@ def test_run_that_ends_after_building_the_arena_says_how_to_undo_it_and_undo_wor
             arena,
             CalibrationStep("walk", last),
         )
-    if isinstance(ended.value, LiveError):
-        assert str(ended.value).endswith(f"mc-nested calibrate arena --undo --profile {file}")
     assert not file.exists()
     assert client.built != before
     undo_built_arena(str(file), context_opener_for(client))

@@ -2,9 +2,11 @@
 
 import json
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 
+from calibration.arena.undo import write_copy_note
 from calibration.calibrate_all import CalibrationStep
 from calibration.context import CalibrationContext, OpenContext, StepResult
 from calibration.doctor.check import Check, CheckName
@@ -39,7 +41,7 @@ def set_up(
     ]
     monkeypatch.setattr(calibrate, "context_opener", lambda *_: context_opener_for(client))
     monkeypatch.setattr(calibrate, "registered_steps", lambda *_, **__: list(steps))
-    monkeypatch.setattr(calibrate, "_examined", lambda _font, _name: rows)
+    monkeypatch.setattr(calibrate, "examined", lambda *_: SimpleNamespace(checks=rows))
 
 
 def with_font(folder: Path) -> CalibrationStep:
@@ -137,6 +139,16 @@ def test_failing_step_is_a_one_line_error_and_writes_nothing(
     error = capsys.readouterr().err
     assert error == "mc-nested: clicks: no button is to be seen (the profile is as it was)\n"
     assert list(tmp_path.glob("mine*")) == []
+
+
+def test_a_run_that_fails_once_the_arena_is_built_says_how_to_undo_it(
+    monkeypatch: pytest.MonkeyPatch, client: VirtualClient, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    file = tmp_path / "mine.toml"
+    set_up(monkeypatch, client, with_font(tmp_path), failing(LiveError("no button is to be seen")))
+    write_copy_note(Profile(), file)
+    assert code_of(file) == 2
+    assert capsys.readouterr().err.endswith(f"mc-nested calibrate arena --undo --profile {file}\n")
 
 
 def test_ctrl_c_ends_the_run_in_one_line_and_nothing_is_written(

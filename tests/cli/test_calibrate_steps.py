@@ -3,6 +3,7 @@
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
+from types import SimpleNamespace
 from typing import TYPE_CHECKING, cast
 
 import pytest
@@ -297,7 +298,7 @@ def test_every_step_has_a_view(
 def test_the_guided_run_has_a_view_that_can_pause_it(
     asked: OnlyQuestion, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    monkeypatch.setattr(calibrate, "_examined", lambda *_: [])
+    monkeypatch.setattr(calibrate, "examined", lambda *_: SimpleNamespace(checks=[]))
     words = ("--profile", tmp_path / "mine.toml", "--record", "off", "--view")
     assert run("calibrate", "all", *words) == 2
     assert capsys.readouterr().err == "mc-nested: that is all\n"

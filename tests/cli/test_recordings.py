@@ -144,7 +144,7 @@ def test_recordings_are_deleted_if_there_are_too_many(kept: Path) -> None:
 
 def test_a_bug_report_without_a_recording_holds_the_versions(tmp_path: Path) -> None:
     out = tmp_path / "report.zip"
-    said = write_bug_report(out, [], None, None, 600.0, Names("/home/ann", ("ann",)))
+    said = write_bug_report(out, [], None, {}, 600.0, Names("/home/ann", ("ann",)))
     assert said == [
         "doctor.json: the 0 rows of mc-nested doctor",
         "versions.json: of mc-nested, Python and the system",
@@ -157,7 +157,7 @@ def test_bug_report_contains_exactly_the_listed_files_and_no_user_names(recorded
     check = Check(CheckName.CLIPBOARD, "pass", "/home/ann/.minecraft is read", "")
     out = tmp_path / "report.zip"
     profile = '[screen]\nfont = "/home/ann/versions/1.20.1.jar"\n'
-    said = write_bug_report(out, [check], profile, recorded, 600.0, Names("/home/ann", ("ann",)))
+    said = write_bug_report(out, [check], profile, {"recording.mcap": recorded}, 600.0, Names("/home/ann", ("ann",)))
     with zipfile.ZipFile(out) as file:
         about = [line.split(":")[0] for line in said]
         assert about[-1] == "what may be seen on its pictures"

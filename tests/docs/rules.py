@@ -113,7 +113,7 @@ _OF_NO_MATTER = re.compile(r"--(?:trials|episodes|designs|seed) \d+|--out|runs/\
 STANDS_FOR = {"--scenario …": "--scenario line"}
 """What a reader puts in place of an ellipsis."""
 
-LIVE = ("calibrate", "doctor", "read", "recordings", "replay")
+LIVE = ("calibrate", "doctor", "read", "recordings", "replay", "try-it")
 """Verbs that look at the game's window, or at what was written there."""
 
 LIVE_SNIPPET = 'backend="live"'

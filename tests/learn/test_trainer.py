@@ -20,6 +20,7 @@ from mc_nested.learn.learner import Learner
 from mc_nested.learn.preset import ExcursionRule, Imitation, MainUpdates, Preset, Prioritized
 from mc_nested.learn.trainer import Trainer
 from sim.grid import GridVectorEnv, arena_env
+from tests.arena.made_games import PERSON, PlayedByAPerson
 from tests.learn.made_trainings import SHORT, Slips, StartsOver, assert_same, copied, finish, saved, ticked
 
 LINE, DIAMOND = load_scenario("line"), load_scenario("diamond")
@@ -496,3 +497,21 @@ def test_a_run_of_any_agent_trains_the_same_alone_and_in_a_batch(spec: AgentSpec
     preset = SHORT.model_copy(update={"episodes": 10})
     beside, alone = finish(trainer_of([LINE] * 3, preset, spec=spec)), finish(trainer_of([LINE], preset, spec=spec))
     assert alone.episode_rows == [row for row in beside.episode_rows if row.trial == 0]
+
+
+def test_what_a_person_did_instead_is_learnt_as_the_action() -> None:
+    trainer = trainer_in(ArenaVectorEnv([ArenaEnv(PlayedByAPerson(LINE, 1), LINE)]), [LINE])
+    for _ in range(3):
+        trainer.tick()
+    assert kept_by(trainer.agent.low_level, 0)["actions"][:2].tolist() == list(PERSON)
+
+
+def test_an_evaluation_in_which_a_person_acted_is_played_again() -> None:
+    # The first evaluation comes after five episodes, so the sixth and seventh resets begin it.
+    alone, helped = (
+        finish(trainer_in(ArenaVectorEnv([ArenaEnv(PlayedByAPerson(LINE, episodes), LINE)]), [LINE]))
+        for episodes in (5, 7)
+    )
+    assert [row.episode for row in alone.evaluation_rows] == [5, 10, 15, 20]
+    assert [row.episode for row in helped.evaluation_rows] == [5, 10, 15, 20]
+    assert helped.evaluation_steps > alone.evaluation_steps

@@ -15,6 +15,8 @@ from typing import Any, BinaryIO, Protocol
 import numpy as np
 from numpy.typing import NDArray
 from pydantic import BaseModel, ConfigDict
+from safetensors import SafetensorError, safe_open
+from safetensors.numpy import save
 
 from mc_nested.arrays import Arrays
 from mc_nested.atomic_file import atomic_write, remove_leftovers
@@ -27,6 +29,9 @@ ABOUT = "about"
 
 SEAL = "checksum"
 """The key of a JSON file that holds the fingerprint of the others."""
+
+_EXPORTED = ("policies.", "runs.episodes", "runs.finished")
+"""What an exported training keeps of its state."""
 
 _CHECKSUM_BYTES, _AT_ONCE = hashlib.sha256().digest_size, 1 << 20
 
@@ -82,8 +87,13 @@ class Checkpoint:
         return self._folder / FILE
 
     @property
+    def weights(self) -> Path:
+        """The file of an exported training, beside the folder: its networks alone."""
+        return self._folder.with_name("model.safetensors")
+
+    @property
     def exists(self) -> bool:
-        """Whether anything was ever saved."""
+        """Whether anything was ever saved, that training can go on from."""
         return self.file.exists()
 
     def save(self, training: Journalled, finished: bool = False) -> None:
@@ -104,8 +114,24 @@ class Checkpoint:
         self._journals, self._next, self._marks = journals, self._next + 1, training.marks()
 
     def state(self) -> Arrays:
-        """Return the last saved state; RunError if it is gone, damaged or another training's."""
-        return self._open()[1]
+        """Return the last saved state; RunError if it is gone, damaged or another training's.
+
+        Of an exported training, what is left of it.
+        """
+        return self._weights() if self.weights.is_file() else self._open()[1]
+
+    def export_to(self, other: "Checkpoint") -> None:
+        """Save the networks that play, and how far they are, as another checkpoint's weights; RunError as ``state``."""
+        kept = {name: each for name, each in self.state().items() if name.startswith(_EXPORTED)}
+        other.weights.write_bytes(save(kept, {"identity": other.identity}))
+
+    def _weights(self) -> Arrays:
+        try:
+            with safe_open(self.weights, "numpy") as weights:
+                self._check((weights.metadata() or {}).get("identity"), self.weights)
+                return {name: weights.get_tensor(name) for name in weights.keys()}  # noqa: SIM118 - it is no mapping
+        except (OSError, SafetensorError) as error:
+            raise self._damaged(self.weights) from error
 
     def load_into(self, training: Journalled) -> None:
         """Continue the training from its last save; RunError as for ``state``."""
@@ -127,12 +153,15 @@ class Checkpoint:
             about = _About.model_validate_json(str(state.pop(ABOUT)))
         except (KeyError, ValueError) as error:
             raise self._damaged(FILE) from error
-        if about.identity != self.identity:
+        self._check(about.identity, self.file)
+        return about, state
+
+    def _check(self, identity: str | None, file: Path) -> None:
+        if identity != self.identity:
             raise RunError(
-                f"{self.file}: the checkpoint belongs to another scenario, agent or preset than this run's "
+                f"{file}: the checkpoint belongs to another scenario, agent or preset than this run's "
                 f"config.toml: put back the config.toml it was trained with"
             )
-        return about, state
 
     def _write(self, name: str, arrays: Mapping[str, NDArray[Any]]) -> str:
         """Write a file, and return its checksum."""
@@ -160,7 +189,7 @@ class Checkpoint:
         except (OSError, ValueError) as error:
             raise self._damaged(name) from error
 
-    def _damaged(self, name: str) -> RunError:
+    def _damaged(self, name: str | Path) -> RunError:
         return RunError(f"{self._folder / name}: the checkpoint is damaged or cut short: {self._remedy}")
 
 

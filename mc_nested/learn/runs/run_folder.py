@@ -188,7 +188,8 @@ class RunFolder:
     @property
     def only_begun(self) -> bool:
         """Whether nothing was ever saved here: the training was killed before its first checkpoint."""
-        return not self.checkpoint.exists and not (self.path / "episodes.csv").exists()
+        saved = (self.checkpoint.file, self.checkpoint.weights, self.path / "episodes.csv")
+        return not any(file.exists() for file in saved)
 
     def wall_s_so_far(self) -> float:
         """Return seconds that the training took until its last save, 0 before; RunError if they can't be read."""

@@ -58,11 +58,15 @@ PICTURE_EVERY_S = 5.0
 
 @dataclass(frozen=True)
 class KeptPicture:
-    """A picture of the window, or of the region [left, top, width, height] of it, as PNG, the chat blanked."""
+    """A picture of the window, or of the region [left, top, width, height] of it, as PNG, the chat blanked.
+
+    ``at`` is the time of day in nanoseconds of the call that it was taken in, once it was written.
+    """
 
     index: int
     region: list[int] | None
     png: bytes
+    at: int = 0
 
 
 class CallEncoder:

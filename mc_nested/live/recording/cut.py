@@ -49,9 +49,9 @@ def cut(
 ) -> int:
     """Write what was recorded between two times of day, in nanoseconds, as one file; return how many calls that is.
 
-    It begins with the first reset at or behind ``first``, if there is one. Pictures that came shortly before are kept
-    with it, unless none are wanted. ``clean`` takes out of its texts what others mustn't read; of its profile's paths
-    the last part alone is kept then. Without it, all texts stay as they are.
+    Unless ``first`` is the recording's beginning, it begins with the first reset from there on, if there is one.
+    Pictures that came shortly before are kept with it, unless none are wanted. ``clean`` takes out of its texts what
+    others mustn't read; of its profile's paths the last part alone is kept then. Without it, all texts stay.
 
     Raises:
         RecordingError: nothing was recorded then, or the recording can't be used, or the file can't be written.
@@ -98,13 +98,11 @@ def trim(path: Path, seconds: float) -> None:
 
 
 def _first_reset(path: Path, first: int, last: int) -> int:
-    """Return the time of the first reset from ``first`` on; ``first`` itself if there is none."""
-    resets = (
-        each.at
-        for each in read_recording(path)
-        if isinstance(each, TimedCall) and each.call[:2] == ["note", "resets"] and first <= each.at <= last
-    )
-    return next(resets, first)
+    """Return the time of the first reset from ``first`` on; ``first`` itself if there is none, or nothing before it."""
+    calls = (each for each in read_recording(path) if isinstance(each, TimedCall))
+    resets = (each.at for each in calls if each.call[:2] == ["note", "resets"] and first <= each.at <= last)
+    began = next((each.at for each in calls), first)
+    return first if first <= began else next(resets, first)
 
 
 def _batches(path: Path, first: int, last: int) -> Iterator[tuple[list[Timed], list[tuple[int, KeptPicture]]]]:
@@ -115,12 +113,13 @@ def _batches(path: Path, first: int, last: int) -> Iterator[tuple[list[Timed], l
         if isinstance(each, PartEnd):
             continue
         if isinstance(each, KeptPicture):
-            if calls:
-                pictures.append((calls[-1][0], each))
-            before = each
+            if first <= each.at <= last:
+                pictures.append((each.at, each))
+            else:
+                before = each
         elif first <= each.at <= last:
-            if not calls and before is not None:
-                pictures.append((each.at, before))
+            if before is not None:
+                pictures.insert(0, (before.at, before))
             before = None
             calls.append((each.at, each.call))
             if len(calls) >= _BATCH:

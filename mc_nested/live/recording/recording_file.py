@@ -112,7 +112,8 @@ def _read_part(part: Path) -> Iterator[TimedCall | KeptPicture | PartEnd]:
 def _message(topic: str, data: bytes) -> Iterator[TimedCall | KeptPicture]:
     value = json.loads(data)
     if topic == WINDOW:
-        yield KeptPicture(int(value["index"]), value["region"], base64.b64decode(value["data"]))
+        at = value["timestamp"]["sec"] * 10**9 + value["timestamp"]["nsec"]
+        yield KeptPicture(int(value["index"]), value["region"], base64.b64decode(value["data"]), at)
         return
     for at, call in zip(value["times_ns"], value["list"], strict=True):
         yield TimedCall(at, call)

@@ -20,6 +20,7 @@ from mc_nested.live.connection import GameConnection, overlay_of
 from mc_nested.live.devices import Frame
 from mc_nested.live.input.input_controller import InputController
 from mc_nested.live.live_game import LiveGame
+from mc_nested.live.menus.click_points import ClickPoint
 from mc_nested.live.profile.store import parse_profile
 from mc_nested.live.profile.tables import Profile
 from mc_nested.live.recording.call_encoder import KeptPicture
@@ -27,6 +28,9 @@ from mc_nested.live.recording.recording_file import PartEnd, facts_of, read_reco
 from mc_nested.live.recording.replayed_devices import OtherCall, ReplayedTape, replayed
 from mc_nested.live.recording.replayed_screen import PixelReader, ReplayedScreen
 from mc_nested.live.vision.font import Font
+
+NOTHING = np.zeros((1, 1, 3), np.uint8)
+"""A picture of no point: it is like nothing."""
 
 
 @dataclass(frozen=True)
@@ -101,7 +105,9 @@ class _Player:
         self._game = None
         if "scenario" in facts:
             scenario = parse_scenario(facts["scenario"], f"{path}: its scenario")
-            self._game = LiveGame(scenario, profile, connection, restore=lambda _world, _template: None)
+            # Their pictures aren't recorded: a screen that was known by one of them can't be followed.
+            points = {name: ClickPoint(name, at, NOTHING) for name, at in profile.points.items()}
+            self._game = LiveGame(scenario, profile, connection, points=points, restore=lambda _world, _template: None)
 
     def play(self) -> Replayed:
         while (call := self._tape.peek()) is not None:

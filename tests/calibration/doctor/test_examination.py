@@ -279,10 +279,10 @@ def test_gui_scale_that_differs_from_the_profiles_is_measured_and_fails_its_row(
 
 
 def test_debug_key_without_an_effect_fails_the_input_row(computer: Computer) -> None:
-    computer.save(Profile(screen=ScreenTable(font=str(computer.font)), keys=KeysTable(debug="f9")))
+    computer.save(Profile(screen=ScreenTable(font=str(computer.font)), keys=KeysTable(debug="f10")))
     client = client_in(as_it_was)
     row = rows(computer.examined(opened(client)))["input"]
-    assert (row.status, row.detail) == ("fail", "f9 was pressed, and the debug screen stayed on")
+    assert (row.status, row.detail) == ("fail", "f10 was pressed, and the debug screen stayed on")
     assert is_untouched(client)
 
 
