@@ -144,9 +144,6 @@ class ArenaVectorEnv(VectorEnv[Int64s, Int64s, Any]):
             self._observations[run], rewards[run], self._terminated[run], self._truncated[run], info = self.envs[
                 run
             ].step(takes[run])
-            if "instead" in info and "instead" not in told:
-                told["instead"] = np.zeros(self.num_envs, dtype=np.int64)
-                masks["_instead"] = np.zeros(self.num_envs, dtype=np.bool_)
             for name in told.keys() & info.keys():
                 told[name][run], masks[f"_{name}"][run] = info[name], True
         if not masks[f"_{INSTEAD}"].any():

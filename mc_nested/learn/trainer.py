@@ -88,8 +88,6 @@ class Trainer(Training):
             evaluating=np.zeros(runs, dtype=np.bool_),
             by_hand=np.zeros(runs, dtype=np.bool_),
         )
-        # Not saved: an episode in which a person acted is a running game's, which starts over.
-        self._helped = np.zeros(runs, dtype=np.bool_)
 
     def tick(self) -> None:
         """Do one step of every run that isn't finished.
@@ -111,7 +109,7 @@ class Trainer(Training):
         observations, rewards, terminated, truncated, info = self._env.step(takes)
         first = self._first_builders
         if INSTEAD in info:
-            actions, by_hand = really_done(actions, info), info[f"_{INSTEAD}"]
+            actions, by_hand = really_done(actions, info), info[f"_{INSTEAD}"][first]
             now.by_hand |= by_hand
             now.evaluating &= ~by_hand
             training = running & ~now.evaluating
@@ -129,7 +127,7 @@ class Trainer(Training):
         if ended.any():
             self.practice.end(ended.nonzero()[0], chosen, scores)
             self._end_training_episodes((ended & training).nonzero()[0], scores, step)
-            self._end_evaluations((ended & now.evaluating & ~self._helped).nonzero()[0], scores)
+            self._end_evaluations((ended & now.evaluating).nonzero()[0], scores)
             now.between_episodes |= ended
         self.ticks += 1
 

@@ -14,10 +14,13 @@ from pathlib import Path
 import cv2
 import pytest
 
+from mc_nested.arena.scenario_file import load_scenario
 from mc_nested.errors import DesktopError, LiveError, McNestedError
 from mc_nested.learn.runs.checkpoint import FILE, unsealed
 from mc_nested.learn.runs.run_folder import RunFolder
 from mc_nested.learn.trainer import Trainer
+from scripts.benches.person import clumsy
+from scripts.benches.teach import record_a_build
 from sim.grid import GridVectorEnv
 from tests.cli.fragile_game import open_live
 from tests.cli.made_imagination import SMALL, write_preset, write_scenario
@@ -360,3 +363,26 @@ def test_training_repeats_an_episode_that_a_mishap_spoiled(tmp_path: Path, monke
     assert run("train", *live, "--out", tmp_path / "run") == 0
     rows = (tmp_path / "run" / "episodes.csv").read_text(encoding="utf-8").splitlines()
     assert [row.split(",")[1] for row in rows[1:]] == ["1", "2", "3"]
+
+
+def test_a_training_learns_from_a_recording_of_a_persons_build_first(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    line = load_scenario("line")
+    record_a_build(tmp_path / "shown", line, clumsy(line, 0, 0.2, 0), 0)
+    words = ["train", "--scenario", "line", "--episodes", "2", "--from-recording", str(tmp_path / "shown")]
+    assert run(*words, "--out", tmp_path / "run", "--json") == 0
+    told = capsys.readouterr()
+    assert "1 whole episode to learn from" in told.err
+    result = json.loads(told.out)
+    assert (result["demonstrated"], result["episodes_done"]) == ([1], [2])
+    assert run("train", "--resume", tmp_path / "run", "--from-recording", tmp_path / "shown") == 2
+    assert "--from-recording" in capsys.readouterr().err
+
+
+def test_a_folder_that_is_no_recording_is_refused_as_a_demonstration(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert run("train", "--scenario", "line", "--from-recording", tmp_path) == 2
+    said = capsys.readouterr().err
+    assert (said.count("\n"), "recording" in said) == (1, True)

@@ -506,12 +506,12 @@ def test_what_a_person_did_instead_is_learnt_as_the_action() -> None:
     assert kept_by(trainer.agent.low_level, 0)["actions"][:2].tolist() == list(PERSON)
 
 
-def test_an_evaluation_in_which_a_person_acted_is_played_again() -> None:
-    # The first evaluation comes after five episodes, so the sixth and seventh resets begin it.
+def test_an_evaluation_in_which_a_person_acted_becomes_a_training_episode() -> None:
+    # The first evaluation comes after five episodes, so the sixth reset begins it.
     alone, helped = (
         finish(trainer_in(ArenaVectorEnv([ArenaEnv(PlayedByAPerson(LINE, episodes), LINE)]), [LINE]))
-        for episodes in (5, 7)
+        for episodes in (5, 6)
     )
     assert [row.episode for row in alone.evaluation_rows] == [5, 10, 15, 20]
-    assert [row.episode for row in helped.evaluation_rows] == [5, 10, 15, 20]
-    assert helped.evaluation_steps > alone.evaluation_steps
+    assert [row.episode for row in helped.evaluation_rows] == [10, 15, 20]
+    assert (alone.demonstrated.tolist(), helped.demonstrated.tolist()) == ([5], [6])

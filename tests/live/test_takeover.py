@@ -20,9 +20,9 @@ from mc_nested.live.input.input_controller import InputController
 from mc_nested.live.input.stops import Takeover
 from mc_nested.live.live_game import LiveGame
 from mc_nested.live.profile.tables import GameVersion, Profile, WorldTable
+from scripts.benches.person import REST_S, Hands, Script, clumsy
 from sim.client.client import VirtualClient
 from sim.client.game.screens import ScreenName
-from scripts.benches.person import REST_S, Hands, Script, clumsy
 from tests.sim.client.playing import arena_of, screen_of, world_in
 
 DIAMOND = load_scenario("diamond")

@@ -24,9 +24,9 @@ from mc_nested.live.profile.tables import GameVersion, InputTable, Profile
 from mc_nested.live.recording.run_recorder import open_recorder
 from mc_nested.live.vision.font import font_of
 from mc_nested.live.vision.game_screen import WindowScreen
+from scripts.benches.person import Hands
 from sim.client.client import VirtualClient
 from sim.client.drawing.letters import drawn_atlas
-from scripts.benches.person import Hands
 
 STEPS_AN_EPISODE = 25
 FONT = font_of(drawn_atlas())
