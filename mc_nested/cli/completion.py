@@ -56,7 +56,7 @@ QUICK: dict[str, Complete] = {
     "--from": complete_runs,
     "play": complete_runs,
     "view": complete_runs,
-    **{f"runs {verb}": complete_runs for verb in ("show", "evaluate", "rename", "delete")},
+    **{f"runs {verb}": complete_runs for verb in ("show", "evaluate", "rename", "export", "delete")},
     **{f"profiles {verb}": complete_profiles for verb in ("show", "rename", "delete")},
 }
 """What completes the word behind an option, or behind a verb: one's own names."""
