@@ -30,7 +30,7 @@ def write_minari(folder: Path, recordings: Sequence[Played]) -> str:
     name = f"{re.sub('[^a-zA-Z0-9]+', '-', scenario.name).strip('-') or 'design'}-v0"
     (folder / name).mkdir()
     seen, done = space_up_to(highest_observation(scenario)), action_space_of(scenario)
-    storage = MinariStorage.new(folder / name / "data", seen, done, data_format="arrow")
+    storage = MinariStorage.new((folder / name / "data").absolute(), seen, done, data_format="arrow")
     about = {"dataset_id": name, "minari_version": version("minari"), "algorithm_name": "mc-nested"}
     storage.update_metadata({**about, "description": f"{scenario.name}, built in the arena of mc-nested"})
     storage.update_episodes(_buffer(scenario, each) for played in recordings for each in played.episodes)
