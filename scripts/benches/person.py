@@ -1,12 +1,13 @@
 """Hands: a person at the virtual client's own keyboard and mouse, for measuring and testing what they teach."""
 
 from collections.abc import Callable, Iterable, Iterator
+from contextlib import suppress
 
 import numpy as np
 
 from mc_nested.arena.action import Action, Cell
-from mc_nested.arena.builder import build, way_to
-from mc_nested.arena.rules import PLACES, WITH_BLOCK, axis_of, front_of, is_inside, landing, moved
+from mc_nested.arena.builder import way_to
+from mc_nested.arena.rules import WITH_BLOCK, axis_of, front_of, is_inside, landing, moved
 from mc_nested.arena.scenario import Scenario
 from mc_nested.errors import ScenarioError
 from mc_nested.live.devices import Button
@@ -110,6 +111,8 @@ TRIES = 100
 def clumsy(scenario: Scenario, seed: int, needless: float = 0.2, wrong: int = 2) -> list[Action]:
     """Return how a person builds a design who isn't good at it, until no block is left.
 
+    The next block is always the nearest one.
+
     Args:
         scenario: the design, without parts.
         seed: of what goes wrong where.
@@ -119,14 +122,17 @@ def clumsy(scenario: Scenario, seed: int, needless: float = 0.2, wrong: int = 2)
     rng = np.random.default_rng(seed)
     for _ in range(TRIES):
         try:
-            return _clumsy(scenario, rng, needless, wrong)
-        except ScenarioError:  # noqa: PERF203 - a wrong block is in the way
+            actions = _clumsy(scenario, rng, needless, wrong)
+        except ScenarioError:  # a block is in the way, or none fits
             continue
-    raise AssertionError("each time a wrong block was in the way")
+        if len(actions) <= scenario.step_limit:
+            return actions
+    raise AssertionError("each time a block was in the way, or the steps didn't suffice")
 
 
 def _clumsy(scenario: Scenario, rng: np.random.Generator, needless: float, wrong: int) -> list[Action]:
     size, cell, placed, done = scenario.size, scenario.start, set[Cell](), list[Action]()
+    mistakes = sorted(rng.choice(np.arange(1, scenario.blocks), wrong, replace=False).tolist())
 
     def do(action: Action) -> None:
         nonlocal cell
@@ -135,41 +141,41 @@ def _clumsy(scenario: Scenario, rng: np.random.Generator, needless: float, wrong
             placed.add(block)
         done.append(action)
 
-    order = _order(scenario)
-    mistakes = set(rng.choice(np.arange(1, len(order) - wrong), wrong, replace=False).tolist())
-    for place, target in enumerate(order):
-        if len(placed) == scenario.blocks:
-            break
-        if place in mistakes:
-            free = [
-                each
-                for each in WITH_BLOCK
-                if (there := moved(cell, each, placed, size)) != cell
-                and is_inside(front_of(there), size)
-                and front_of(there) not in placed | scenario.design
-            ]
-            if not free:
-                raise ScenarioError("no wrong block fits here")
-            do(WITH_BLOCK[free[int(rng.integers(len(free)))]])
-        *way, last = way_to(cell, (target[0], target[1] - 1), placed, size)
+    def free() -> list[Action]:
+        return [each for each in WITH_BLOCK if moved(cell, each, placed, size) != cell]
+
+    def beside() -> list[Action]:
+        fronts = {each: front_of(moved(cell, each, placed, size)) for each in free()}
+        return [
+            each for each, front in fronts.items() if is_inside(front, size) and front not in placed | scenario.design
+        ]
+
+    while len(placed) < scenario.blocks:
+        if mistakes and len(placed) >= mistakes[0] and (there := beside()):
+            do(WITH_BLOCK[there[int(rng.integers(len(there)))]])
+            del mistakes[0]
+            continue
+        *way, last = _nearest(cell, scenario, placed)
         for action in (*way, WITH_BLOCK[last]):
             if rng.random() < needless / (1 - needless) / 2:
-                free = [each for each in WITH_BLOCK if moved(cell, each, placed, size) != cell]
-                aside = free[int(rng.integers(len(free)))]
+                aside = free()[int(rng.integers(len(free())))]
                 do(aside)
                 do(_BACK[aside])
             do(action)
+    if mistakes:
+        raise ScenarioError("no wrong block fits any more")
     return done
 
 
+def _nearest(cell: Cell, scenario: Scenario, placed: set[Cell]) -> list[Action]:
+    """Return the shortest way to where a block of the design can be placed; raise ScenarioError if there is none."""
+    ways = []
+    for x, y in sorted(scenario.design - placed):
+        with suppress(ScenarioError):
+            ways.append(way_to(cell, (x, y - 1), placed, scenario.size))
+    if not ways:
+        raise ScenarioError("no block can be placed any more")
+    return min(ways, key=len)
+
+
 _BACK = {Action.F: Action.B, Action.B: Action.F, Action.L: Action.R, Action.R: Action.L}
-
-
-def _order(scenario: Scenario) -> list[Cell]:
-    """Return the design's cells in the order in which the scripted builder places them."""
-    cell, placed = scenario.start, list[Cell]()
-    for action in build(scenario):
-        cell = moved(cell, action, placed, scenario.size)
-        if action in PLACES:
-            placed.append(front_of(cell))
-    return placed
