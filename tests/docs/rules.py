@@ -41,7 +41,7 @@ SIZES = {
     "python scripts/bench.py live": "--actions 200 --frames 20 --tesseract 0 --builds 1",
     "python scripts/bench.py reader": "--frames 20 --tesseract 0",
     "python scripts/bench.py rehearsal": "--actions 4 --only '60 fps' --json",
-    "python scripts/bench.py teach": "--seeds 1",
+    "python scripts/bench.py teach": "--seeds 2",
     "python scripts/draw.py film": "film.gif --scenario line",
     "python scripts/draw.py overlap": "/dev/null",
     "python scripts/draw.py view": ". --seconds 15",
