@@ -76,12 +76,12 @@ def write_bug_report(
 
 def _end_of(recording: Path, name: str, seconds: float, names: Names) -> tuple[bytes, list[str]]:
     """Return the end of a recording, and what is in it, in lines."""
-    ended = overview_of(recording).ended
-    if ended is None:
+    whole = overview_of(recording)
+    if not whole.calls:
         raise RecordingError(f"{recording}: holds nothing: name another recording, or --no-recording")
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / name
-        cut(recording, path, ended - round(seconds * 1e9), ended, names.removed_from)
+        cut(recording, path, (whole.seconds or 0.0) - seconds, clean=names.removed_from)
         seen = overview_of(path)
         return path.read_bytes(), [
             f"{name}: the last {seen.seconds:.0f} s of {recording.name}: {seen.actions} actions",

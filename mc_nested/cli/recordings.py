@@ -1,9 +1,8 @@
 """``mc-nested recordings``: the recordings of live runs: list, verify, trim and cut them."""
 
-import datetime
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import partial
 from pathlib import Path
 from typing import Annotated, Literal
 
@@ -16,9 +15,9 @@ from mc_nested.cli.options import is_alone
 from mc_nested.cli.output import JsonOption, Output, prints
 from mc_nested.errors import RecordingError
 from mc_nested.live.recording.cut import cut, trim
-from mc_nested.live.recording.frames import played_in
+from mc_nested.live.recording.demonstrations import played_in
 from mc_nested.live.recording.recording_file import Overview, overview_of
-from mc_nested.live.recording.run_recorder import is_recording, kept_recordings, recordings_folder
+from mc_nested.live.recording.run_recorder import kept_recordings, recordings_folder
 
 app = typer.Typer()
 
@@ -34,34 +33,11 @@ DAMAGED = 1
 
 
 @dataclass(frozen=True)
-class RecordingFound:
-    """What ``recordings verify`` prints."""
-
-    recording: Annotated[Path, "its folder or file"]
-    what: Annotated[str | None, "what was recorded, as build-house"] = None
-    version: Annotated[str | None, "of mc-nested that wrote it"] = None
-    began: Annotated[datetime.datetime | None, "local time"] = None
-    seconds: Annotated[float | None, "its length"] = None
-    calls: Annotated[int | None, "of devices, screen and journal"] = None
-    actions: Annotated[int | None, "in it"] = None
-    pictures: Annotated[int | None, "in it"] = None
-    size: Annotated[int | None, "bytes of all its files"] = None
-    damage: Annotated[Sequence[str], "what of it is lost"] = ()
-
-    @classmethod
-    def of(cls, path: Path, seen: Overview) -> "RecordingFound":
-        """Return a summary of a recording."""
-        began = None if seen.began is None else datetime.datetime.fromtimestamp(seen.began / 1e9)
-        facts = (seen.what, seen.version, began, seen.seconds, seen.calls, seen.actions, seen.pictures, seen.size)
-        return cls(path, *facts, seen.damage)
-
-
-@dataclass(frozen=True)
 class RecordingList:
     """What ``recordings list`` prints."""
 
     folder: Annotated[Path, "where they are kept"]
-    recordings: Annotated[Sequence[RecordingFound], "for each, the fields of recordings verify"]
+    recordings: Annotated[Sequence[Overview], "for each, the fields of recordings verify"]
 
 
 @app.callback(invoke_without_command=True)
@@ -88,13 +64,13 @@ def list_recordings(as_json: JsonOption = False) -> None:
 
 
 @app.command()
-@prints(RecordingFound)
+@prints(Overview)
 def verify(recording: RecordingArgument, as_json: JsonOption = False) -> None:
     """Read a recording as a whole, and say whether anything of it is lost: exit code 0 if all is there, 1 if not."""
     path = recording_path(recording)
     seen = overview_of(path)
     Output(as_json=as_json).result(
-        RecordingFound.of(path, seen),
+        seen,
         f"{path}: {seen.calls:,} calls, {seen.actions:,} actions, {seen.pictures:,} pictures, {_state(seen)}",
     )
     if seen.damage:
@@ -118,20 +94,15 @@ def cut_out(
     out: Annotated[Path, typer.Argument(metavar="FILE", help="a new file, as part.mcap")],
     first: Annotated[float, typer.Option("--from", min=0, help="seconds from its beginning")] = 0.0,
     last: Annotated[
-        float | None, typer.Option("--to", min=0, help="seconds from its beginning", show_default="its end")
-    ] = None,
+        float, typer.Option("--to", min=0, help="seconds from its beginning", show_default="its end")
+    ] = math.inf,
     no_pictures: Annotated[bool, typer.Option("--no-pictures", help="leave the window's pictures out")] = False,
 ) -> None:
     """Write a part of a recording as one file, without names, from a reset on; in tests/recordings/ it is a test."""
     path = recording_path(recording)
     if out.exists():
         raise RecordingError(f"{out}: is there already: name a new file")
-    seen = overview_of(path)
-    if seen.began is None or seen.ended is None:
-        raise RecordingError(f"{path}: holds nothing that could be cut out")
-    end = seen.ended if last is None else seen.began + round(last * 1e9)
-    begin, clean = seen.began + round(first * 1e9), names_here().removed_from
-    calls = cut(path, out, begin, end, clean, with_pictures=not no_pictures)
+    calls = cut(path, out, first, last, names_here().removed_from, with_pictures=not no_pictures)
     typer.echo(f"{out}: {calls:,} calls, {_state(overview_of(out))}")
 
 
@@ -149,15 +120,16 @@ def export(
     with whole_folder(out, RecordingError) as folder:
         try:
             if form == "minari":
-                from mc_nested.report.minari_dataset import write_minari as write
+                from mc_nested.report.minari_dataset import write_minari
+
+                what = write_minari(folder, found)
             else:
                 from mc_nested.report.lerobot_dataset import write_lerobot
 
-                write = partial(write_lerobot, fps=fps)
+                what = write_lerobot(folder, found, fps)
         except ImportError as error:
             install = "pip install -c constraints.txt -e '.[share]'"
             raise RecordingError(f"--format {form} needs {error.name}: {install}") from None
-        what = write(folder, found)
     for played in found:
         actions = [f"{played.left_out} actions"] if played.left_out else []
         if missing := [*actions, *played.damage]:
@@ -166,15 +138,14 @@ def export(
     typer.echo(f"{out}: {what}, {len(episodes):,} episodes, {sum(len(each.steps) for each in episodes):,} actions")
 
 
-def _found(path: Path) -> RecordingFound:
-    """Return a summary of a recording; of one that can't be read, only what is wrong with it."""
+def _found(path: Path) -> Overview:
     try:
-        return RecordingFound.of(path, overview_of(path))
+        return overview_of(path)
     except RecordingError as error:
-        return RecordingFound(path, damage=(str(error).split(": ", 1)[-1],))
+        return Overview(path, damage=(str(error).split(": ", 1)[-1],))
 
 
-def _row(found: RecordingFound) -> tuple[str, ...]:
+def _row(found: Overview) -> tuple[str, str, str, str, str]:
     if found.what is None or found.size is None:
         return "", "", "", "", ""
     began = "" if found.began is None else f"{found.began:%Y-%m-%d %H:%M:%S}"
@@ -182,7 +153,8 @@ def _row(found: RecordingFound) -> tuple[str, ...]:
 
 
 def _state(seen: Overview) -> str:
-    return f"{seen.seconds:.0f} s, {seen.size / 1e6:.1f} MB, {'; '.join(seen.damage) or WHOLE}"
+    _, _, lasts, _, size = _row(seen)
+    return f"{lasts}, {size}, {'; '.join(seen.damage) or WHOLE}"
 
 
 def recording_path(named: Path) -> Path:
@@ -196,7 +168,7 @@ def recording_path(named: Path) -> Path:
 
 def last_recording() -> Path:
     """Return the newest recording that is kept; raise RecordingError if there is none."""
-    kept = [path for path in kept_recordings() if is_recording(path)]
+    kept = kept_recordings()
     if not kept:
         raise RecordingError("no recording is kept yet: play, train or calibrate in a running game first")
     return kept[-1]

@@ -66,10 +66,9 @@ def _taken(agent: Agent, scenario: Scenario, shown: Demonstration) -> list[tuple
     chooses = 0 if agent.main else len(scenario.materials)
     if chooses:
         taken.append((in_hand, in_hand))
-    for (action, material), _ in shown.steps:
-        if material is not None and material != in_hand:
-            in_hand = material
-            if chooses:
-                taken.append((in_hand, in_hand))
-        taken.append((chooses + action, in_hand))
+    for step in shown.steps:
+        if chooses and step.material != in_hand:
+            taken.append((step.material, step.material))
+        in_hand = step.material
+        taken.append((chooses + step.action, in_hand))
     return taken

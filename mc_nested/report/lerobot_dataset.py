@@ -6,17 +6,20 @@ the action that was under way, or came next. A block that didn't land lies in (-
 
 import json
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pyarrow as pa
 import pyarrow.parquet as pq
+from numpy.typing import NDArray
 
 from mc_nested.arena.scenario import Scenario
 from mc_nested.arena.scenario_file import draw_grid
 from mc_nested.errors import RecordingError
-from mc_nested.live.recording.frames import Played, frames_of
+from mc_nested.live.recording.demonstrations import Played
+from mc_nested.live.recording.frames import PlayedFrame, frames_of
 from mc_nested.report.film_file import Mp4Encoder
 
 WINDOW = "observation.images.window"
@@ -39,33 +42,39 @@ def write_lerobot(folder: Path, recordings: Sequence[Played], fps: int) -> str:
     """
     if len({each.size for each in recordings}) > 1:
         raise RecordingError("the windows of these recordings have different sizes: export each by itself")
-    for name in ("meta/episodes", "data", f"videos/{WINDOW}"):
-        (folder / name / _FIRST).parent.mkdir(parents=True)
-    tasks = list(dict.fromkeys(task_of(each.scenario) for each in recordings))
-    rows, dots = _filmed(folder / f"videos/{WINDOW}/{_FIRST}.mp4", recordings, fps, tasks)
-    keys = sorted({"mouse.right", *(key for row in rows for key in row["action"])})
-    for index, row in enumerate(rows):
-        row |= {"action": np.array([key in row["action"] for key in keys], np.float32), "index": index}
-    table = {name: np.array([row[name] for row in rows]).reshape(len(rows), -1) for name in rows[0]}
-    columns = {
-        name: pa.array(list(each)) if each.shape[1] > 1 else pa.array(each[:, 0]) for name, each in table.items()
+    parts = ("data", "meta/episodes", f"videos/{WINDOW}")
+    for part in parts:
+        (folder / part / _FIRST).parent.mkdir(parents=True)
+    frames = _filmed(folder / f"videos/{WINDOW}/{_FIRST}.mp4", recordings, fps)
+    keys = sorted({"mouse.right"}.union(*(frame.held for frame in frames)))
+    task_of_each = [task_of(played.scenario) for played in recordings for _ in played.episodes]
+    tasks = list(dict.fromkeys(task_of_each))
+    index, episode = np.arange(len(frames)), np.array([frame.episode for frame in frames])
+    lengths = np.bincount(episode)
+    ends = lengths.cumsum()
+    numbers = index - (ends - lengths)[episode]
+    table: dict[str, NDArray[Any]] = {
+        "observation.state": np.array([frame.pose for frame in frames], np.float32),
+        "action": np.array([[key in frame.held for key in keys] for frame in frames], np.float32),
+        "arena.action": np.array([int(frame.step.action) for frame in frames]),
+        "arena.material": np.array([frame.step.material for frame in frames]),
+        "arena.cell": np.array([frame.step.outcome.cell for frame in frames]),
+        "arena.placed": np.array([frame.step.outcome.placed or (-1, -1) for frame in frames]),
+        "timestamp": (numbers / fps).astype(np.float32),
+        "frame_index": numbers,
+        "episode_index": episode,
+        "index": index,
+        "task_index": np.array([tasks.index(task) for task in task_of_each])[episode],
     }
     features: dict[str, Any] = {
-        name: {"dtype": f"{each.dtype}", "shape": each.shape[1:], "names": {**NAMES, "action": keys}.get(name)}
+        name: {"dtype": f"{each.dtype}", "shape": each.shape[1:] or (1,), "names": {**NAMES, "action": keys}.get(name)}
         for name, each in table.items()
     }
     width, height = (side + side % 2 for side in recordings[0].size)
-    features[WINDOW] = {
-        "dtype": "video",
-        "shape": (height, width, 3),
-        "names": ("height", "width", "channels"),
-        "info": {"video.fps": fps, "video.codec": "h264", "video.pix_fmt": "yuv420p", "has_audio": False},
-    }
-    lengths = np.bincount(table["episode_index"][:, 0])
-    ends, parts = lengths.cumsum(), ("data", "meta/episodes", f"videos/{WINDOW}")
+    features[WINDOW] = {"dtype": "video", "shape": (height, width, 3), "names": ("height", "width", "channels")}
     episodes = {
         "episode_index": range(len(lengths)),
-        "tasks": [[tasks[at]] for at in table["task_index"][ends - 1, 0]],
+        "tasks": [[task] for task in task_of_each],
         "length": lengths,
         "dataset_from_index": ends - lengths,
         "dataset_to_index": ends,
@@ -78,7 +87,7 @@ def write_lerobot(folder: Path, recordings: Sequence[Played], fps: int) -> str:
         "robot_type": "mc-nested",
         "fps": fps,
         "total_episodes": len(lengths),
-        "total_frames": len(rows),
+        "total_frames": len(frames),
         "total_tasks": len(tasks),
         "chunks_size": 1000,
         "data_files_size_in_mb": 100,
@@ -88,59 +97,43 @@ def write_lerobot(folder: Path, recordings: Sequence[Played], fps: int) -> str:
         "video_path": f"videos/{{video_key}}/{_PLACE}.mp4",
         "features": features,
     }
+    columns = {name: pa.array(list(each) if each.ndim > 1 else each) for name, each in table.items()}
     pq.write_table(pa.table(columns), folder / f"data/{_FIRST}.parquet")
     pq.write_table(pa.table(episodes), folder / f"meta/episodes/{_FIRST}.parquet")
     pq.write_table(_indexed(tasks), folder / "meta/tasks.parquet")
+    dots = np.concatenate([frame.picture.reshape(-1, 3, 1, 1) for frame in frames]) / 255
     stats = {name: _stats(each) for name, each in {**table, WINDOW: dots}.items()}
     for name, said in (("info", info), ("stats", stats)):
         (folder / f"meta/{name}.json").write_text(json.dumps(said, indent=2), "utf-8")
-    return f"{len(rows):,} frames"
+    return f"{len(frames):,} frames"
 
 
-def _filmed(
-    file: Path, recordings: Sequence[Played], fps: int, tasks: Sequence[str]
-) -> tuple[list[dict[str, Any]], Any]:
-    """Write the video; return each frame's values by column, and some of its dots, (dots, 3, 1, 1), from 0 to 1."""
+def _filmed(file: Path, recordings: Sequence[Played], fps: int) -> list[PlayedFrame]:
+    """Write the video; return its frames, of whose pictures some dots are left."""
     encoder = Mp4Encoder(file, fps, whole_every=10)
-    rows: list[dict[str, Any]] = []
-    dots, before = [], 0
+    frames: list[PlayedFrame] = []
     try:
         for played in recordings:
+            before = frames[-1].episode + 1 if frames else 0
             for frame in frames_of(played, fps):
-                episode, outcome = before + frame.episode, frame.step.outcome
-                number = rows[-1]["frame_index"] + 1 if rows and rows[-1]["episode_index"] == episode else 0
-                rows.append(
-                    {
-                        "observation.state": np.array(frame.pose, np.float32),
-                        "action": frame.held,
-                        "arena.action": int(frame.step.action),
-                        "arena.material": frame.step.material,
-                        "arena.cell": outcome.cell,
-                        "arena.placed": outcome.placed or (-1, -1),
-                        "timestamp": np.float32(number / fps),
-                        "frame_index": number,
-                        "episode_index": episode,
-                        "task_index": tasks.index(task_of(played.scenario)),
-                    }
-                )
-                dots.append(frame.picture[8::64, 8::64].reshape(-1, 3, 1, 1))
                 encoder.add(frame.picture, 1)
-            before += len(played.episodes)
+                dots = frame.picture[8::64, 8::64].copy()
+                frames.append(replace(frame, episode=before + frame.episode, picture=dots))
         encoder.finish()
     finally:
         encoder.stop()
-    return rows, np.concatenate(dots) / 255
+    return frames
 
 
 def _indexed(tasks: Sequence[str]) -> Any:
     """Return the table of tasks as pandas reads it, their texts its index."""
-    kinds = (("task_index", "int64", "int64"), ("task", "unicode", "object"))
-    columns = [{"name": name, "field_name": name, "pandas_type": kind, "numpy_type": of} for name, kind, of in kinds]
-    about = {"index_columns": ["task"], "column_indexes": [], "columns": columns}
+    task = {"name": "task", "field_name": "task", "pandas_type": "unicode", "numpy_type": "object"}
+    about = {"index_columns": ["task"], "column_indexes": [], "columns": [task]}
     table = pa.table({"task_index": range(len(tasks)), "task": tasks})
     return table.replace_schema_metadata({"pandas": json.dumps(about)})
 
 
-def _stats(values: Any) -> Mapping[str, Any]:
-    stats = {"min": values.min(0), "max": values.max(0), "mean": values.mean(0), "std": values.std(0)}
-    return {**{name: each.tolist() for name, each in stats.items()}, "count": [len(values)]}
+def _stats(values: NDArray[Any]) -> Mapping[str, Any]:
+    rows = values if values.ndim > 1 else values[:, None]
+    stats = {"min": rows.min(0), "max": rows.max(0), "mean": rows.mean(0), "std": rows.std(0)}
+    return {**{name: each.tolist() for name, each in stats.items()}, "count": [len(rows)]}

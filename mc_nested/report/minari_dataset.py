@@ -10,10 +10,11 @@ import numpy as np
 from minari.data_collector.episode_buffer import EpisodeBuffer
 from minari.dataset.minari_storage import MinariStorage
 
-from mc_nested.arena.env import action_space_of, highest_observation, space_up_to, step_in
+from mc_nested.arena.demonstration import Demonstration, ShownGame
+from mc_nested.arena.env import ArenaEnv, action_space_of, highest_observation, space_up_to, step_in
 from mc_nested.arena.scenario import Scenario
 from mc_nested.errors import RecordingError
-from mc_nested.live.recording.frames import Episode, Played
+from mc_nested.live.recording.demonstrations import Played
 
 _UNSAID = {"placed": (-1, -1), "score": np.nan, "earned": 0.0, "chooses": True}
 """What stands for a fact that a step's info doesn't have; the last two come with parts alone."""
@@ -37,16 +38,19 @@ def write_minari(folder: Path, recordings: Sequence[Played]) -> str:
     return name
 
 
-def _buffer(scenario: Scenario, episode: Episode) -> EpisodeBuffer:
+def _buffer(scenario: Scenario, shown: Demonstration) -> EpisodeBuffer:
     """Return an episode; one that was left off ends as truncated, as Minari's own do."""
-    steps, infos = episode.steps, [episode.info, *(step.info for step in episode.steps)]
-    unsaid = dict(list(_UNSAID.items())[: 4 if scenario.parts else 2])
-    told: dict[str, Any] = {name: [info.get(name, none) for info in infos] for name, none in unsaid.items()}
+    env = ArenaEnv(ShownGame(shown, scenario.start), scenario)
+    first, begun = env.reset(options={"material": scenario.materials[shown.material].name})
+    actions = [step_in(scenario, step.action, step.material) for step in shown.steps]
+    seen, rewards, terminations, truncations, told = zip(*map(env.step, actions), strict=True)
+    infos, unsaid = [begun, *told], dict(list(_UNSAID.items())[: 4 if scenario.parts else 2])
+    columns: dict[str, Any] = {name: [info.get(name, none) for info in infos] for name, none in unsaid.items()}
     return EpisodeBuffer(
-        observations=[episode.observation, *(step.observation for step in steps)],
-        actions=[step_in(scenario, step.action, step.material) for step in steps],
-        rewards=[step.reward for step in steps],
-        terminations=[step.terminated for step in steps],
-        truncations=[*(step.truncated for step in steps[:-1]), not steps[-1].terminated],
-        infos={**told, "placed": np.array(told["placed"]), "material": [info["material"] for info in infos]},
+        observations=[first, *seen],
+        actions=actions,
+        rewards=list(rewards),
+        terminations=list(terminations),
+        truncations=[*truncations[:-1], not terminations[-1]],
+        infos={**columns, "placed": np.array(columns["placed"]), "material": [info["material"] for info in infos]},
     )

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from mc_nested.arena.builder import build
-from mc_nested.arena.demonstration import Demonstration
+from mc_nested.arena.demonstration import Demonstration, Step
 from mc_nested.arena.scenario_file import load_scenario
 from mc_nested.learn.agents import AGENT_SPECS, Agent
 from mc_nested.learn.preset import load_preset
@@ -21,14 +21,14 @@ def shown_line() -> Demonstration:
     """Return the line as the scripted builder builds it, of stone."""
     game = GridGame(LINE)
     game.reset(STONE)
-    return Demonstration(STONE, tuple(((action, None), game.act(action)) for action in build(LINE)))
+    return Demonstration(STONE, [Step(action, STONE, game.act(action)) for action in build(LINE)])
 
 
 @pytest.mark.parametrize("name", AGENT_SPECS)
 def test_an_agent_sees_the_choice_and_the_actions_as_its_own(name: str) -> None:
     agent = Agent(AGENT_SPECS[name], [LINE], SHORT, 0)
     episode, shown = as_seen(agent, LINE, shown_line()), shown_line()
-    actions = [int(action) for (action, _), _ in shown.steps]
+    actions = [int(step.action) for step in shown.steps]
     assert episode.actions.tolist() == (actions if agent.main else [STONE, *(2 + action for action in actions)])
     assert (episode.earned[-1], episode.terminated) == (LINE.optimum, True)
     assert sum(episode.rewards) == (LINE.blocks if agent.main else LINE.optimum)

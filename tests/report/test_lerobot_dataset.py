@@ -10,7 +10,8 @@ import numpy as np
 import pyarrow.parquet as pq
 import pytest
 
-from mc_nested.live.recording.frames import Played, frames_of, played_in
+from mc_nested.live.recording.demonstrations import Played, played_in
+from mc_nested.live.recording.frames import frames_of
 from mc_nested.report.lerobot_dataset import WINDOW, task_of, write_lerobot
 from scripts.programs import ROOT
 from tests.live.recording.recorded_play import record_play

@@ -10,7 +10,7 @@ import pytest
 from mc_nested.arena.env import ArenaEnv
 from mc_nested.arena.scenario_file import load_scenario
 from mc_nested.errors import RecordingError
-from mc_nested.live.recording.frames import played_in
+from mc_nested.live.recording.demonstrations import played_in
 from mc_nested.report.minari_dataset import write_minari
 from sim.grid import GridGame
 from tests.live.recording.recorded_play import record_play
@@ -56,11 +56,15 @@ def test_in_a_scenario_with_parts_the_material_is_beside_the_action(
     write_minari(tmp_path, [played])
     monkeypatch.setenv("MINARI_DATASETS_PATH", str(tmp_path))
     (episode,) = minari.load_dataset("flag-v0")
-    steps = played.episodes[0].steps
+    shown = played.episodes[0]
+    steps = shown.steps
     assert episode.actions.tolist() == [[step.action, step.material] for step in steps]
     assert len({step.material for step in steps}) > 1
-    assert episode.infos["chooses"].tolist()[1:] == [step.info["chooses"] for step in steps]
-    assert np.allclose(episode.infos["earned"][1:], [step.info["earned"] for step in steps])
+    env = ArenaEnv(GridGame(played.scenario), played.scenario)
+    env.reset(options={"material": played.scenario.materials[shown.material].name})
+    infos = [env.step((step.action, step.material))[4] for step in steps]
+    assert episode.infos["chooses"].tolist()[1:] == [info["chooses"] for info in infos]
+    assert np.allclose(episode.infos["earned"][1:], [info["earned"] for info in infos])
 
 
 def test_recordings_of_different_designs_are_refused(tmp_path: Path) -> None:

@@ -118,20 +118,19 @@ class Checkpoint:
 
         Of an exported training, what is left of it.
         """
-        return self._weights() if self.weights.is_file() else self._open()[1]
-
-    def export_to(self, other: "Checkpoint") -> None:
-        """Save the networks that play, and how far they are, as another checkpoint's weights; RunError as ``state``."""
-        kept = {name: each for name, each in self.state().items() if name.startswith(_EXPORTED)}
-        other.weights.write_bytes(save(kept, {"identity": other.identity}))
-
-    def _weights(self) -> Arrays:
+        if not self.weights.is_file():
+            return self._open()[1]
         try:
             with safe_open(self.weights, "numpy") as weights:
                 self._check((weights.metadata() or {}).get("identity"), self.weights)
                 return {name: weights.get_tensor(name) for name in weights.keys()}  # noqa: SIM118 - it is no mapping
         except (OSError, SafetensorError) as error:
             raise self._damaged(self.weights) from error
+
+    def export_to(self, other: "Checkpoint") -> None:
+        """Save the networks that play, and how far they are, as another checkpoint's weights; RunError as ``state``."""
+        kept = {name: each for name, each in self.state().items() if name.startswith(_EXPORTED)}
+        other.weights.write_bytes(save(kept, {"identity": other.identity}))
 
     def load_into(self, training: Journalled) -> None:
         """Continue the training from its last save; RunError as for ``state``."""

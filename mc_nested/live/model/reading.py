@@ -11,8 +11,8 @@ Block = tuple[int, int, int]
 class Target:
     """The block looked at: its position and its id as the screen shows it, each None where it isn't shown."""
 
-    pos: Block | None
-    id: str | None
+    pos: Block | None = None
+    id: str | None = None
 
 
 XYZ = tuple[float, float, float]

@@ -7,11 +7,14 @@ its size.
 """
 
 import time
+from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Any
 
 import cv2
+import numpy as np
 
+from mc_nested.errors import RecordingError
 from mc_nested.live.devices import Frame, Region
 from mc_nested.live.model.reading import Reading
 from mc_nested.live.recording.format import Call, plain_value
@@ -24,33 +27,10 @@ from mc_nested.live.vision.screen_lines import ScreenLines
 from mc_nested.live.vision.screen_reader import Look
 
 BYTES_A_SECOND = 60_000
-"""3.6 MB a minute."""
+"""Of pictures, 3.6 MB a minute."""
 
 AT_ONCE = 3_000_000
-"""About one picture of a large window that can't be packed well."""
-
-
-class ByteBudget:
-    """The bytes that may be written now. A picture's size is known only once it is packed: the last may overdraw it.
-
-    Args:
-        now: seconds from an arbitrary zero.
-    """
-
-    def __init__(self, now: float) -> None:
-        self._left: float = AT_ONCE
-        self._at = now
-
-    def may_spend(self, now: float) -> bool:
-        """Return whether anything is left at that time."""
-        self._left = min(AT_ONCE, self._left + (now - self._at) * BYTES_A_SECOND)
-        self._at = now
-        return self._left > 0
-
-    def spend(self, count: int) -> None:
-        """Take so many bytes off."""
-        self._left -= count
-
+"""Bytes, about one picture of a large window that can't be packed well."""
 
 PICTURE_EVERY_S = 5.0
 """Seconds from one whole picture to the next while all goes well."""
@@ -58,15 +38,22 @@ PICTURE_EVERY_S = 5.0
 
 @dataclass(frozen=True)
 class KeptPicture:
-    """A picture of the window, or of the region [left, top, width, height] of it, as PNG, the chat blanked.
-
-    ``at`` is the time of day in nanoseconds of the call that it was taken in, once it was written.
-    """
+    """A picture of the window, or of the region [left, top, width, height] of it, as PNG, the chat blanked."""
 
     index: int
     region: list[int] | None
     png: bytes
-    at: int = 0
+
+
+def draw(pictures: Iterable[KeptPicture], window: Frame) -> None:
+    """Draw pictures on that of the whole window, cut off at its edges; RecordingError if one is damaged."""
+    for each in pictures:
+        picture = cv2.imdecode(np.frombuffer(each.png, np.uint8), cv2.IMREAD_COLOR)
+        if picture is None:
+            raise RecordingError("a picture of the window is damaged: cut that part of the recording away")
+        part = window[Region(*each.region).slices] if each.region else window
+        height, width = np.minimum(part.shape[:2], picture.shape[:2])
+        part[:height, :width] = picture[:height, :width]
 
 
 class CallEncoder:
@@ -82,7 +69,7 @@ class CallEncoder:
     def __init__(self, size: tuple[int, int]) -> None:
         self.size = size
         self._first_size = size
-        self._budget = ByteBudget(time.monotonic())
+        self._bytes_left, self._looked_at = float(AT_ONCE), time.monotonic()
         self._pictured_at = -PICTURE_EVERY_S
         self._index = 0
 
@@ -106,14 +93,13 @@ class CallEncoder:
             self.size = look.frame.shape[1], look.frame.shape[0]
         text = text_pixels_of(look)
         is_read = answer is not None and (not isinstance(answer, Reading) or answer.target is not None)
+        kept: dict[str, Any] | None = None
         if text is not None and is_read and self.font and reads_the_same(text, look, answer, self.font):
-            kept: dict[str, Any] | None = {"text": text.to_json()}
-        else:
-            text, kept = (text if is_read else None), None
+            kept = {"text": text.to_json()}
         pictures: list[KeptPicture] = []
         is_due = time.monotonic() - self._pictured_at >= PICTURE_EVERY_S
         if kept is None or is_due:
-            blanked = self._without_chat(look.frame, look.region, text_pixels_of(look))
+            blanked = self._without_chat(look.frame, look.region, text)
             pictures = self._picture(blanked, look.region)
             if pictures and kept is None:
                 kept = {"picture": pictures[0].index, "is_enough": self._is_enough(blanked, look, answer)}
@@ -140,12 +126,12 @@ class CallEncoder:
 
     def _picture(self, blanked: Frame, region: Region | None) -> list[KeptPicture]:
         now = time.monotonic()
-        if blanked.size == 0 or not self._budget.may_spend(now):
+        self._bytes_left = min(AT_ONCE, self._bytes_left + (now - self._looked_at) * BYTES_A_SECOND)
+        self._looked_at = now
+        if blanked.size == 0 or self._bytes_left <= 0:
             return []
-        done, png = cv2.imencode(".png", blanked, [cv2.IMWRITE_PNG_COMPRESSION, 1])
-        if not done:
-            return []
-        self._budget.spend(len(png))
+        _, png = cv2.imencode(".png", blanked, [cv2.IMWRITE_PNG_COMPRESSION, 1])
+        self._bytes_left -= len(png)  # known only once it is packed: the last picture may overdraw it
         self._pictured_at = now
         self._index += 1
         return [KeptPicture(self._index, plain_value(region), png.tobytes())]

@@ -1,7 +1,9 @@
 """Cutting a recording: a part of it as one file, from a reset on, so that it can be replayed."""
 
+import math
 import re
 from collections.abc import Callable, Iterator
+from itertools import islice
 from pathlib import Path
 from typing import Any
 
@@ -9,17 +11,7 @@ import tomlkit
 
 from mc_nested.atomic_file import atomic_write, refused_as
 from mc_nested.errors import RecordingError
-from mc_nested.live.recording.call_encoder import KeptPicture
-from mc_nested.live.recording.format import event_of
-from mc_nested.live.recording.recording_file import (
-    PartEnd,
-    PartWriter,
-    Timed,
-    TimedCall,
-    facts_of,
-    parts_of,
-    read_recording,
-)
+from mc_nested.live.recording.recording_file import PartWriter, TimedCall, facts_of, parts_of, read_recording
 from mc_nested.toml_file import parse_document
 
 _BATCH = 500
@@ -41,17 +33,17 @@ _SEPARATORS = r"[\\/]"
 def cut(
     path: Path,
     out: Path,
-    first: int,
-    last: int,
+    first: float = 0.0,
+    last: float = math.inf,
     clean: Callable[[str], str] | None = None,
     *,
     with_pictures: bool = True,
 ) -> int:
-    """Write what was recorded between two times of day, in nanoseconds, as one file; return how many calls that is.
+    """Write what was recorded between two times, in seconds from its beginning; return how many calls that is.
 
-    Unless ``first`` is the recording's beginning, it begins with the first reset from there on, if there is one.
-    Pictures that came shortly before are kept with it, unless none are wanted. ``clean`` takes out of its texts what
-    others mustn't read; of its profile's paths the last part alone is kept then. Without it, all texts stay.
+    Unless ``first`` is the recording's beginning, the file begins with the first reset from there on, if there is one.
+    ``clean`` takes out of its texts what others mustn't read; of its profile's paths the last part alone is kept then.
+    Without it, all texts stay.
 
     Raises:
         RecordingError: nothing was recorded then, or the recording can't be used, or the file can't be written.
@@ -61,33 +53,36 @@ def cut(
         if "profile" in facts:
             facts["profile"] = _without_folders(facts["profile"], path)
         facts = {name: clean(text) for name, text in facts.items()}
-    begin = _first_reset(path, first, last)
+    if first > 0:
+        resets = (since for since, each in _calls_in(path) if each.call[:2] == ["note", "resets"])
+        first = next((since for since in resets if first <= since <= last), first)
+    chosen = (
+        TimedCall(each.at, _cleaned(each.call, clean) if clean else each.call, each.pictures if with_pictures else ())
+        for since, each in _calls_in(path)
+        if first <= since <= last
+    )
     written = 0
     with refused_as(RecordingError, out, "name another file"), atomic_write(out) as unfinished:
         unfinished.unlink(missing_ok=True)
         writer = PartWriter(unfinished, facts)
         try:
-            for calls, pictures in _batches(path, begin, last):
-                cleaned = [(at, _cleaned(call, clean)) for at, call in calls] if clean else calls
-                events = [(at, event) for at, call in cleaned if (event := event_of(call))]
-                writer.write(cleaned, events, pictures if with_pictures else [])
+            while calls := list(islice(chosen, _BATCH)):
+                writer.write(calls)
                 written += len(calls)
         finally:
             writer.close()
         if not written:
-            raise RecordingError(f"{path}: nothing was recorded then: choose another time")
+            raise RecordingError(f"{path}: nothing was recorded then: choose another time, or another recording")
     return written
 
 
 def trim(path: Path, seconds: float) -> None:
     """Keep only a recording's last seconds; if that can't be done, raise RecordingError and leave it as it was."""
     parts = parts_of(path)
-    ends = [each.at for each in read_recording(path) if isinstance(each, TimedCall)]
-    if not ends:
-        raise RecordingError(f"{path}: holds nothing that could be kept")
     kept = parts[-1].with_name("trimmed.tmp")
+    lasts = max((since for since, _ in _calls_in(path)), default=0.0)
     try:
-        cut(path, kept, ends[-1] - round(seconds * 1e9), ends[-1])
+        cut(path, kept, lasts - seconds)
         for part in parts[:-1]:
             part.unlink()
         kept.replace(parts[-1])
@@ -97,36 +92,13 @@ def trim(path: Path, seconds: float) -> None:
         kept.unlink(missing_ok=True)
 
 
-def _first_reset(path: Path, first: int, last: int) -> int:
-    """Return the time of the first reset from ``first`` on; ``first`` itself if there is none, or nothing before it."""
-    calls = (each for each in read_recording(path) if isinstance(each, TimedCall))
-    resets = (each.at for each in calls if each.call[:2] == ["note", "resets"] and first <= each.at <= last)
-    began = next((each.at for each in calls), first)
-    return first if first <= began else next(resets, first)
-
-
-def _batches(path: Path, first: int, last: int) -> Iterator[tuple[list[Timed], list[tuple[int, KeptPicture]]]]:
-    calls: list[Timed] = []
-    pictures: list[tuple[int, KeptPicture]] = []
-    before: KeptPicture | None = None
+def _calls_in(path: Path) -> Iterator[tuple[float, TimedCall]]:
+    """Return each call with its seconds from the recording's beginning."""
+    began = None
     for each in read_recording(path):
-        if isinstance(each, PartEnd):
-            continue
-        if isinstance(each, KeptPicture):
-            if first <= each.at <= last:
-                pictures.append((each.at, each))
-            else:
-                before = each
-        elif first <= each.at <= last:
-            if before is not None:
-                pictures.insert(0, (before.at, before))
-            before = None
-            calls.append((each.at, each.call))
-            if len(calls) >= _BATCH:
-                yield calls, pictures
-                calls, pictures = [], []
-    if calls:
-        yield calls, pictures
+        if isinstance(each, TimedCall):
+            began = each.at if began is None else began
+            yield (each.at - began) / 1e9, each
 
 
 def _without_folders(profile: str, recording: Path) -> str:

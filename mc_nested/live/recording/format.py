@@ -1,7 +1,6 @@
-"""The contents of a recording: an MCAP file's topics and facts, and calls and events as plain values of JSON.
+"""The contents of a recording: an MCAP file's topics and facts, and calls as plain values of JSON.
 
 /calls    every call that crossed the devices, in order: what a replay needs
-/events   what happened, for people: keys, buttons, notes and errors, each with its time of day
 /window   pictures of the window, as Foxglove's CompressedImage, the chat blanked
 
 A call is a list of plain values: its name, what it was asked, what it answered. Calls of the thread that plays are in
@@ -23,9 +22,6 @@ from dataclasses import asdict, is_dataclass
 from typing import Any
 
 from mc_nested.live.devices import Region
-from mc_nested.live.journal import Fact, NoteKind
-from mc_nested.live.model.reading import Reading, Target
-from mc_nested.live.vision.menu_labels import MenuButton
 
 FORMAT = 2
 """Of the calls: counted up where a run of before asks other things of its window than one of today.
@@ -34,12 +30,14 @@ A recording of another format is refused: every episode would differ at its firs
 version.
 """
 
-CALLS, EVENTS, WINDOW = "/calls", "/events", "/window"
+CALLS, WINDOW = "/calls", "/window"
 
 FACTS = "mc-nested"
 """The name of the metadata record: format, versions, what was run, the profile, the scenario and the window."""
 
 SUFFIX = ".mcap"
+
+_CALLS = {"type": "object", "title": "mc_nested.Calls", "properties": {"list": {"type": "array"}}}
 
 _IMAGE = {
     "type": "object",
@@ -55,13 +53,8 @@ _IMAGE = {
 }
 
 
-def _list_of(name: str) -> dict[str, object]:
-    return {"type": "object", "title": name, "properties": {"list": {"type": "array"}}}
-
-
 SCHEMAS = {
-    CALLS: ("mc_nested.Calls", json.dumps(_list_of("mc_nested.Calls"))),
-    EVENTS: ("mc_nested.Events", json.dumps(_list_of("mc_nested.Events"))),
+    CALLS: ("mc_nested.Calls", json.dumps(_CALLS)),
     WINDOW: ("foxglove.CompressedImage", json.dumps(_IMAGE)),
 }
 """Each topic's schema: its name, and the JSON Schema of its messages."""
@@ -91,28 +84,12 @@ class Tape:
             return
         self._calls.append((time.time_ns(), list(call)))
 
-    def note(self, kind: NoteKind, /, **facts: Fact) -> None:
-        """Add a note of the journal."""
-        self.add("note", kind, facts)
-
     def take(self) -> list[tuple[int, Call]]:
         """Take what was added since the last time, with the time of day in nanoseconds; any thread may do so."""
         taken: list[tuple[int, Call]] = []
         while self._calls:
             taken.append(self._calls.popleft())
         return taken
-
-
-def event_of(call: Call) -> dict[str, Any] | None:
-    """Return the event that a call, as plain values, stands for; None where it is none, as a look at the clock."""
-    name, *said = call
-    if name == "note":
-        return {"event": said[0], **said[1]}
-    if name in ("key", "mouse", "error", "reset", "act", "stop"):
-        return {"event": name, "what": " ".join(str(each) for each in said)}
-    if name == "elsewhere":
-        return event_of(said)
-    return None
 
 
 def plain_value(value: Any) -> Any:
@@ -126,45 +103,3 @@ def plain_value(value: Any) -> Any:
     if isinstance(value, tuple | list):
         return [plain_value(part) for part in value]
     return value
-
-
-def reading_of(value: Mapping[str, Any]) -> Reading:
-    """Return a reading from its fields; raise KeyError, TypeError or ValueError where they are others."""
-    xyz = value.get("xyz")
-    target = value.get("target")
-    return Reading(
-        None if xyz is None else _xyz(xyz),
-        value.get("yaw"),
-        value.get("pitch"),
-        None if target is None else _target(target),
-        value.get("problem"),
-    )
-
-
-def position_of(value: Any) -> tuple[float, float, float] | None:
-    """Return a position in the world, or None."""
-    return None if value is None else _xyz(value)
-
-
-def button_of(value: Mapping[str, Any]) -> MenuButton:
-    """Return a button from its fields."""
-    middle = value.get("middle")
-    return MenuButton(
-        None if middle is None else (int(middle[0]), int(middle[1])),
-        bool(value.get("is_enabled", False)),
-        value.get("problem"),
-        int(value.get("scale", 1)),
-    )
-
-
-def _xyz(value: Any) -> tuple[float, float, float]:
-    x, y, z = value
-    return float(x), float(y), float(z)
-
-
-def _target(value: Mapping[str, Any]) -> Target:
-    pos = value.get("pos")
-    if pos is None:
-        return Target(None, value.get("id"))
-    x, y, z = pos
-    return Target((int(x), int(y), int(z)), value.get("id"))

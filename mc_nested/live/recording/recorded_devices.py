@@ -142,6 +142,10 @@ class RecordedClipboard(_OnTape[Clipboard]):
             self._device.write(text)
 
 
+_LOOKS = ("read", "read_position")
+"""Questions whose pixels are recorded."""
+
+
 class RecordedScreen(_OnTape[WindowScreen]):
     """A screen on tape. The pictures that it takes are part of its own calls.
 
@@ -149,10 +153,10 @@ class RecordedScreen(_OnTape[WindowScreen]):
     """
 
     def read(self) -> Reading:
-        return self._looked("read", self._device.read)
+        return self._answer("read", self._device.read)
 
     def read_position(self) -> tuple[float, float, float] | None:
-        return self._looked("read_position", self._device.read_position)
+        return self._answer("read_position", self._device.read_position)
 
     def shows_world(self) -> bool:
         return self._answer("shows_world", self._device.shows_world)
@@ -181,16 +185,10 @@ class RecordedScreen(_OnTape[WindowScreen]):
     def seen_scales(self) -> Scales | None:
         return self._answer("seen_scales", self._device.seen_scales)
 
-    def _looked(self, name: str, look: Callable[[], Answer]) -> Answer:
-        with self._asked(name):
-            answer = look()
-        self._tape.add("screen", name, [], answer, self._device.last_look)
-        return answer
-
     def _answer(self, name: str, ask: Callable[Asked, Answer], *args: Asked.args, **kwargs: Asked.kwargs) -> Answer:
         with self._asked(name):
             answer = ask(*args, **kwargs)
-        self._tape.add("screen", name, list(args), answer, None)
+        self._tape.add("screen", name, list(args), answer, self._device.last_look if name in _LOOKS else None)
         return answer
 
     @contextmanager

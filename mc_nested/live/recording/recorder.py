@@ -15,10 +15,10 @@ from types import TracebackType
 from mc_nested.live.devices import Devices
 from mc_nested.live.input.stops import Stop
 from mc_nested.live.journal import Fact, NoteKind
-from mc_nested.live.recording.call_encoder import CallEncoder, KeptPicture
-from mc_nested.live.recording.format import SUFFIX, Tape, event_of
+from mc_nested.live.recording.call_encoder import CallEncoder
+from mc_nested.live.recording.format import SUFFIX, Tape
 from mc_nested.live.recording.recorded_devices import RecordedScreen, recorded
-from mc_nested.live.recording.recording_file import PartWriter, Timed
+from mc_nested.live.recording.recording_file import PartWriter, TimedCall
 from mc_nested.live.vision.game_screen import GameScreen, WindowScreen
 
 WRITE_EVERY_S = 0.25
@@ -39,26 +39,18 @@ class Recorder:
         facts: what the recording is of, as texts by name.
         size: the window's width and height.
         say: shows the person one line, where the disk refuses.
-        kept_bytes: bytes that are kept at most.
 
     Raises OSError where the folder can't be made.
     """
 
     def __init__(
-        self,
-        folder: Path,
-        facts: Mapping[str, str],
-        size: tuple[int, int],
-        say: Callable[[str], None],
-        *,
-        kept_bytes: int = KEPT_BYTES,
+        self, folder: Path, facts: Mapping[str, str], size: tuple[int, int], say: Callable[[str], None]
     ) -> None:
         folder.mkdir(parents=True, exist_ok=True)
         self.folder = folder
         self.tape = Tape()
         self._facts = dict(facts)
         self._say = say
-        self._kept_bytes = kept_bytes
         self._encoder = CallEncoder(size)
         self._part: PartWriter | None = None
         self._part_began = 0.0
@@ -95,7 +87,7 @@ class Recorder:
 
     def note(self, kind: NoteKind, /, **facts: Fact) -> None:
         """Record a note of the journal."""
-        self.tape.note(kind, **facts)
+        self.tape.add("note", kind, facts)
 
     def __enter__(self) -> "Recorder":
         self._thread.start()
@@ -124,17 +116,9 @@ class Recorder:
                 self.tape.take()
 
     def _write(self) -> None:
-        calls: list[Timed] = []
-        events: list[Timed] = []
-        pictures: list[tuple[int, KeptPicture]] = []
-        for at, call in self.tape.take():
-            plain, pictured = self._encoder.encode(call)
-            calls.append((at, plain))
-            pictures += [(at, picture) for picture in pictured]
-            if event := event_of(plain):
-                events.append((at, event))
+        calls = [TimedCall(at, *self._encoder.encode(call)) for at, call in self.tape.take()]
         if calls:
-            self._current_part().write(calls, events, pictures)
+            self._current_part().write(calls)
 
     def _current_part(self) -> PartWriter:
         """Return the file to write to; a new one, without what is too old, once the last one is long enough."""
@@ -153,7 +137,7 @@ class Recorder:
 
     def _drop_old(self, now: float) -> None:
         sizes = [path.stat().st_size for _, path in self._closed]
-        while self._closed and (sum(sizes) > self._kept_bytes or now - self._closed[0][0] > KEPT_S):
+        while self._closed and (sum(sizes) > KEPT_BYTES or now - self._closed[0][0] > KEPT_S):
             _, path = self._closed.pop(0)
             sizes.pop(0)
             path.unlink()

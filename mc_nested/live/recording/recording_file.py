@@ -5,12 +5,14 @@ A file can be read at any moment, up to the last batch that was written: whateve
 
 import base64
 import contextlib
+import datetime
 import json
 import struct
+from collections import deque
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Annotated, Any
 
 from mcap.exceptions import EndOfFile, McapError
 from mcap.records import Channel, Footer, Message, Metadata
@@ -20,39 +22,30 @@ from zstandard import ZstdError
 
 from mc_nested.errors import RecordingError
 from mc_nested.live.recording.call_encoder import KeptPicture
-from mc_nested.live.recording.format import CALLS, EVENTS, FACTS, FORMAT, SCHEMAS, SUFFIX, WINDOW
+from mc_nested.live.recording.format import CALLS, FACTS, FORMAT, SCHEMAS, SUFFIX, WINDOW
 
 LARGEST_RECORD = 256 * 2**20
 """Bytes: no record of ours is near it, and a damaged length must not fill the memory."""
 
 ENDS_EARLY = "it ends early, as after a crash"
 
-_DAMAGE = (
-    McapError,
-    ZstdError,
-    EOFError,
-    ValueError,
-    KeyError,
-    TypeError,
-    struct.error,
-    MemoryError,
-)
+_DAMAGE = (McapError, ZstdError, EOFError, ValueError, KeyError, TypeError, struct.error, MemoryError)
 
 
 @dataclass(frozen=True)
 class TimedCall:
-    """A call as plain values, and its time of day in nanoseconds."""
+    """A call as plain values, its time of day in nanoseconds, and the pictures that were taken in it."""
 
     at: int
     call: list[Any]
+    pictures: Sequence[KeptPicture] = ()
 
 
 @dataclass(frozen=True)
-class PartEnd:
-    """The end of a file: how it ended. ``problem`` is None for one that was closed, and whole."""
+class Lost:
+    """Stands where calls may be missing: which file is damaged, and how, in a line."""
 
-    path: Path
-    problem: str | None
+    what: str
 
 
 def parts_of(path: Path) -> list[Path]:
@@ -78,8 +71,8 @@ def facts_of(path: Path) -> Mapping[str, str]:
     raise RecordingError(f"{path}: is no recording of mc-nested, or nothing of it was written: name another one")
 
 
-def read_recording(path: Path) -> Iterator[TimedCall | KeptPicture | PartEnd]:
-    """Return everything in a recording, in order; each file is followed by how it ended.
+def read_recording(path: Path) -> Iterator[TimedCall | Lost]:
+    """Return everything in a recording, in order.
 
     Raise RecordingError as for ``facts_of``.
     """
@@ -88,12 +81,13 @@ def read_recording(path: Path) -> Iterator[TimedCall | KeptPicture | PartEnd]:
         yield from _read_part(part)
 
 
-def _read_part(part: Path) -> Iterator[TimedCall | KeptPicture | PartEnd]:
+def _read_part(part: Path) -> Iterator[TimedCall | Lost]:
     topics: dict[int, str] = {}
+    pictures = deque[tuple[int, KeptPicture]]()
     is_closed = False
     for record in _records(part):
         if isinstance(record, str):
-            yield PartEnd(part, record)
+            yield Lost(f"{part.name}: {record}")
             return
         if isinstance(record, Channel):
             topics[record.id] = record.topic
@@ -101,22 +95,25 @@ def _read_part(part: Path) -> Iterator[TimedCall | KeptPicture | PartEnd]:
             is_closed = True
         elif isinstance(record, Message) and topics.get(record.channel_id) in (CALLS, WINDOW):
             try:
-                read = list(_message(topics[record.channel_id], record.data))
+                value = json.loads(record.data)
+                if topics[record.channel_id] == WINDOW:
+                    pictures.append(_picture(value))
+                    continue
+                calls = list(zip(value["times_ns"], value["list"], strict=True))
             except _DAMAGE as error:
-                yield PartEnd(part, f"damaged: {error}")
+                yield Lost(f"{part.name}: damaged: {error}")
                 return
-            yield from read
-    yield PartEnd(part, None if is_closed else ENDS_EARLY)
+            for at, call in calls:
+                taken = [pictures.popleft()[1] for _ in range(sum(when <= at for when, _ in pictures))]
+                yield TimedCall(at, call, taken)
+    if not is_closed:
+        yield Lost(f"{part.name}: {ENDS_EARLY}")
 
 
-def _message(topic: str, data: bytes) -> Iterator[TimedCall | KeptPicture]:
-    value = json.loads(data)
-    if topic == WINDOW:
-        at = value["timestamp"]["sec"] * 10**9 + value["timestamp"]["nsec"]
-        yield KeptPicture(int(value["index"]), value["region"], base64.b64decode(value["data"]), at)
-        return
-    for at, call in zip(value["times_ns"], value["list"], strict=True):
-        yield TimedCall(at, call)
+def _picture(value: Mapping[str, Any]) -> tuple[int, KeptPicture]:
+    """Return a picture, and the time of day of its call in nanoseconds."""
+    at = value["timestamp"]["sec"] * 10**9 + value["timestamp"]["nsec"]
+    return at, KeptPicture(int(value["index"]), value["region"], base64.b64decode(value["data"]))
 
 
 def _records(part: Path) -> Iterator[Any]:
@@ -135,10 +132,6 @@ def _records(part: Path) -> Iterator[Any]:
                 yield ENDS_EARLY if is_cut else f"damaged: {' '.join(str(error).split())[:100]}"
     except OSError as error:
         raise RecordingError(f"{part}: can't be read ({error.strerror or error})") from error
-
-
-Timed = tuple[int, Any]
-"""Nanoseconds of the time of day, and what it was."""
 
 
 class PartWriter:
@@ -163,17 +156,14 @@ class PartWriter:
             self._channels[topic] = self._writer.register_channel(topic, "json", schema_id)
         self._writer.add_metadata(FACTS, dict(facts))
 
-    def write(
-        self, calls: Sequence[Timed], events: Sequence[Timed], pictures: Sequence[tuple[int, KeptPicture]]
-    ) -> None:
+    def write(self, calls: Sequence[TimedCall]) -> None:
         """Write a batch, the pictures first: a call that names one never stands before it."""
-        for at, picture in pictures:
-            self._message(WINDOW, at, _image(at, picture))
-        if events:
-            self._message(EVENTS, events[-1][0], {"list": [{"time_ns": at, **event} for at, event in events]})
+        for each in calls:
+            for picture in each.pictures:
+                self._message(WINDOW, each.at, _image(each.at, picture))
         if calls:
-            times, said = zip(*calls, strict=True)
-            self._message(CALLS, times[-1], {"list": said, "times_ns": times})
+            said = {"list": [each.call for each in calls], "times_ns": [each.at for each in calls]}
+            self._message(CALLS, calls[-1].at, said)
         self._file.flush()
 
     def close(self) -> None:
@@ -206,41 +196,38 @@ def _image(at: int, picture: KeptPicture) -> dict[str, Any]:
 
 @dataclass(frozen=True)
 class Overview:
-    """A recording at a glance; times are nanoseconds of the time of day, None if it holds no call."""
+    """A recording at a glance. Of one that can't be read, only what is wrong with it is known."""
 
-    what: str
-    version: str
-    began: int | None
-    ended: int | None
-    calls: int
-    actions: int
-    pictures: int
-    size: int
-    damage: tuple[str, ...]
-
-    @property
-    def seconds(self) -> float:
-        """From its first call to its last."""
-        return 0.0 if self.began is None or self.ended is None else (self.ended - self.began) / 1e9
+    recording: Annotated[Path, "its folder or file"]
+    what: Annotated[str | None, "what was recorded, as build-house"] = None
+    version: Annotated[str | None, "of mc-nested that wrote it"] = None
+    began: Annotated[datetime.datetime | None, "local time; null if it holds no call"] = None
+    ended: Annotated[datetime.datetime | None, "local time"] = None
+    seconds: Annotated[float | None, "its length"] = None
+    calls: Annotated[int | None, "of devices, screen and journal"] = None
+    actions: Annotated[int | None, "in it"] = None
+    pictures: Annotated[int | None, "in it"] = None
+    size: Annotated[int | None, "bytes of all its files"] = None
+    damage: Annotated[Sequence[str], "what of it is lost"] = ()
 
 
 def overview_of(path: Path) -> Overview:
     """Read a recording as a whole, its checksums too; raise RecordingError as for ``facts_of``."""
     facts = facts_of(path)
-    began = ended = None
-    calls = actions = pictures = 0
+    times: list[int] = []
+    actions = pictures = 0
     damage = []
     for each in read_recording(path):
-        if isinstance(each, KeptPicture):
-            pictures += 1
-        elif isinstance(each, PartEnd):
-            if each.problem:
-                damage.append(f"{each.path.name}: {each.problem}")
-        else:
-            began = each.at if began is None else began
-            ended = each.at
-            calls += 1
-            actions += each.call[:2] == ["note", "acts"]
+        if isinstance(each, Lost):
+            damage.append(each.what)
+            continue
+        times.append(each.at)
+        pictures += len(each.pictures)
+        actions += each.call[:2] == ["note", "acts"]
+    what, version = (facts.get(name, "unknown") for name in ("what", "version"))
+    began, ended, seconds = None, None, 0.0
+    if times:
+        began, ended = (datetime.datetime.fromtimestamp(at / 1e9) for at in (times[0], times[-1]))
+        seconds = (times[-1] - times[0]) / 1e9
     size = sum(part.stat().st_size for part in parts_of(path))
-    what, version = facts.get("what", "unknown"), facts.get("version", "unknown")
-    return Overview(what, version, began, ended, calls, actions, pictures, size, tuple(damage))
+    return Overview(path, what, version, began, ended, seconds, len(times), actions, pictures, size, tuple(damage))

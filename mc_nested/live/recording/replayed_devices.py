@@ -39,7 +39,6 @@ class ReplayedTape:
         self.on_release: Callable[[str], None] = lambda _: None
         """Is told what another thread released, by the input controller's name of it, before the call that follows."""
         self._released: list[list[Any]] = []
-        self.count = 0
 
     def peek(self) -> list[Any] | None:
         """Return the next call of the thread that played; None at the end."""
@@ -47,7 +46,6 @@ class ReplayedTape:
             call = next(self._calls, None)
             if call is None:
                 return None
-            self.count += 1
             if call[0] != "elsewhere":
                 self._next = call
             elif call[1] == "stop":

@@ -5,9 +5,9 @@ be the recorded one, to the last digit of its time. After the first that is anot
 episode any more, and the next reset is where both are alike again.
 """
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import suppress
 from dataclasses import dataclass, field
-from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -23,8 +23,7 @@ from mc_nested.live.live_game import LiveGame
 from mc_nested.live.menus.click_points import ClickPoint
 from mc_nested.live.profile.store import parse_profile
 from mc_nested.live.profile.tables import Profile
-from mc_nested.live.recording.call_encoder import KeptPicture
-from mc_nested.live.recording.recording_file import PartEnd, facts_of, read_recording
+from mc_nested.live.recording.recording_file import Lost, facts_of, read_recording
 from mc_nested.live.recording.replayed_devices import OtherCall, ReplayedTape, replayed
 from mc_nested.live.recording.replayed_screen import PixelReader, ReplayedScreen
 from mc_nested.live.vision.font import Font
@@ -126,7 +125,8 @@ class _Player:
         game.go_on_from(placed, facts["pressed"], (real, imaginary, weight), chat)
         tape.is_followed = True
         try:
-            self._call(lambda: game.reset(int(facts["material"])))
+            with suppress(LiveError):  # as it was then, or its note would have differed
+                game.reset(int(facts["material"]))
             while (call := tape.peek()) is not None and call[:2] != ["note", "resets"]:
                 if call[:2] != ["note", "acts"]:
                     self._pass_by(call)
@@ -134,19 +134,14 @@ class _Player:
                 self.seen.actions += 1
                 facts = call[2]
                 following = (Action(then[0]), then[1]) if (then := facts.get("following")) else None
-                self._call(partial(game.act, Action(facts["action"]), facts.get("material"), following))
+                with suppress(LiveError):
+                    game.act(Action(facts["action"]), facts.get("material"), following)
                 self.seen.followed += 1
         except OtherCall as other:
             if tape.peek() is not None and tape.stop_reason is None:
                 self._differs("decision", _words(other.then), _words(other.now))
         finally:
             tape.is_followed = False
-
-    def _call(self, play: Callable[[], object]) -> None:
-        try:
-            play()
-        except LiveError:
-            return  # as it was then, or its note would have differed
 
     def _pass_by(self, call: list[Any]) -> None:
         """Pass by a call; compare nothing but its reading."""
@@ -169,13 +164,11 @@ class _Player:
 
     def _calls(self, path: Path) -> Iterator[list[Any]]:
         for each in read_recording(path):
-            if isinstance(each, KeptPicture):
-                self._pixels.keep(each)
-            elif isinstance(each, PartEnd):
-                if each.problem:
-                    self.seen.damaged.append(f"{each.path.name}: {each.problem}")
-            else:
-                yield each.call
+            if isinstance(each, Lost):
+                self.seen.damaged.append(each.what)
+                continue
+            self._pixels.pictures.extend(each.pictures)
+            yield each.call
 
 
 def _words(call: list[Any] | None) -> str:

@@ -3,18 +3,18 @@
 What the chat and menus showed is as recorded.
 """
 
-from collections import OrderedDict
+from collections import deque
 from collections.abc import Callable
 from typing import Any
 
-import cv2
 import numpy as np
+from pydantic import TypeAdapter
 
 from mc_nested.errors import RecordingError
 from mc_nested.live.devices import Frame, Region
-from mc_nested.live.model.reading import Reading
-from mc_nested.live.recording.call_encoder import KeptPicture
-from mc_nested.live.recording.format import button_of, plain_value, position_of, reading_of
+from mc_nested.live.model.reading import XYZ, Reading
+from mc_nested.live.recording.call_encoder import KeptPicture, draw
+from mc_nested.live.recording.format import plain_value
 from mc_nested.live.recording.replayed_devices import OnReplayedTape, ReplayedTape
 from mc_nested.live.recording.text_pixels import OUTSIDE, TextPixels, paint
 from mc_nested.live.vision.font import Font
@@ -38,7 +38,8 @@ class PixelReader:
 
     def __init__(self, size: tuple[int, int], font: Font, overlay: Overlay | None = None) -> None:
         self._font, self._given = font, overlay
-        self._pictures: OrderedDict[int, KeptPicture] = OrderedDict()
+        self.pictures = deque[KeptPicture](maxlen=_PICTURES)
+        """Those that a call may name, the newest last."""
         self._first_size = size
         self._resize(size)
 
@@ -49,12 +50,6 @@ class PixelReader:
         self._painted: list[slice] = []
         self._overlay = self._given
         self._screen = WindowScreen(_Canvas(self), self._font, self._overlay)
-
-    def keep(self, picture: KeptPicture) -> None:
-        """Keep a picture for the calls that name it."""
-        self._pictures[picture.index] = picture
-        while len(self._pictures) > _PICTURES:
-            self._pictures.popitem(last=False)
 
     def shown(self, pixels: Any) -> WindowScreen | None:
         """Return the screen with a call's pixels on it; None where they were not kept, or don't suffice.
@@ -70,7 +65,7 @@ class PixelReader:
             if "text" in pixels:
                 self._show_text(TextPixels.from_json(pixels["text"]))
                 return self._screen
-            picture = self._pictures.get(pixels["picture"])
+            picture = next((each for each in self.pictures if each.index == pixels["picture"]), None)
             if picture is None or not pixels["is_enough"]:
                 return None
             self._show_picture(picture)
@@ -89,17 +84,9 @@ class PixelReader:
         self._painted = [slice(line.row * scale, (line.row + GLYPH_ROWS) * scale) for line in text.lines]
 
     def _show_picture(self, picture: KeptPicture) -> None:
-        frame = cv2.imdecode(np.frombuffer(picture.png, np.uint8), cv2.IMREAD_COLOR)
-        if frame is None:
-            raise ValueError("a picture that is none")
-        height, width = self.canvas.shape[:2]
-        region = Region(*picture.region) if picture.region else Region(0, 0, width, height)
         self.canvas[:] = OUTSIDE
-        self._painted = [slice(0, height)]
-        part = self.canvas[region.slices]
-        if part.shape != frame.shape:
-            raise ValueError("a picture of another size")
-        part[:] = frame
+        self._painted = [slice(0, len(self.canvas))]
+        draw([picture], self.canvas)
         # A text later has its own overlay, and makes a screen for it.
         self._overlay = None
         self._screen = WindowScreen(_Canvas(self), self._font, self._given)
@@ -126,6 +113,10 @@ class _Canvas:
         return canvas if region is None else canvas[region.slices]
 
 
+_READING, _POSITION, _BUTTON = TypeAdapter(Reading), TypeAdapter[XYZ | None](XYZ | None), TypeAdapter(MenuButton)
+"""What was answered, from its plain values; ValueError where they are others."""
+
+
 class ReplayedScreen:
     """A screen that answers as it was recorded, whatever is read now: so the replay can go on.
 
@@ -142,12 +133,12 @@ class ReplayedScreen:
     def read(self) -> Reading:
         then, pixels = self._tape.same("screen", "read", [])
         self.read_again("read", then, pixels)
-        return reading_of(then)
+        return _READING.validate_python(then)
 
-    def read_position(self) -> tuple[float, float, float] | None:
+    def read_position(self) -> XYZ | None:
         then, pixels = self._tape.same("screen", "read_position", [])
         self.read_again("read_position", then, pixels)
-        return position_of(then)
+        return _POSITION.validate_python(then)
 
     def read_again(self, name: str, then: Any, pixels: Any) -> None:
         """Read the pixels of a recorded call anew, and report both readings."""
@@ -199,4 +190,4 @@ class _Labels(OnReplayedTape):
         return bool(self._tape.same("menu", "shows", text)[0])
 
     def button(self, label: str) -> MenuButton:
-        return button_of(self._tape.same("menu", "button", label)[0])
+        return _BUTTON.validate_python(self._tape.same("menu", "button", label)[0])

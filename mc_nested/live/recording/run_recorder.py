@@ -23,11 +23,6 @@ UNKNOWN = "unknown"
 """What a fact is where the system doesn't say."""
 
 
-def is_recording(path: Path) -> bool:
-    """Return whether a file, or a folder's files, are named as those of a recording."""
-    return any(path.glob(f"*{SUFFIX}")) if path.is_dir() else path.suffix == SUFFIX
-
-
 def recordings_folder() -> Path:
     """Return where recordings lie by default, by the system's convention."""
     return platformdirs.user_state_path("mc-nested", appauthor=False) / "recordings"
@@ -38,7 +33,8 @@ def kept_recordings() -> list[Path]:
     folder = recordings_folder()
     if not folder.is_dir():
         return []
-    return sorted(filter(is_recording, folder.iterdir()), key=lambda each: (each.stat().st_mtime_ns, each.name))
+    kept = [each for each in folder.iterdir() if each.suffix == SUFFIX or any(each.glob(f"*{SUFFIX}"))]
+    return sorted(kept, key=lambda each: (each.stat().st_mtime_ns, each.name))
 
 
 @contextmanager

@@ -5,8 +5,8 @@ same reading is taken without it, which is tried before a recording leaves it ou
 """
 
 import base64
-from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -119,14 +119,10 @@ def reads_the_same(pixels: TextPixels, look: Look, answer: object, font: Font) -
         return False
     above = look.region.top // lines.overlay.scale if look.region else 0
     flat = Overlay(1, lines.overlay.layout, lines.overlay.colour)
-    shifted = TextPixels(flat, tuple(_moved(pixels.lines, -above)))
+    shifted = TextPixels(flat, tuple(replace(line, row=line.row - above) for line in pixels.lines))
     rows = max((line.row for line in shifted.lines), default=0) + GLYPH_ROWS + 1
     picture: Frame = np.full((rows, lines.dots.columns, 3), OUTSIDE, np.uint8)
     paint(picture, shifted)
     dots = GlyphGrid(picture, 1, min(flat.colour), lines.dots.first, lines.dots.pitch)
     again = ScreenLines(dots, font, flat, lines.positions_seen)
     return (read_lines(again) if isinstance(answer, Reading) else read_position(again)) == answer
-
-
-def _moved(lines: Iterable[LinePixels], rows: int) -> Iterable[LinePixels]:
-    return (LinePixels(line.row + rows, line.first, *line.inks) for line in lines)

@@ -1,11 +1,12 @@
-"""Random play on the virtual client, recorded: for tests."""
+"""Random play on the virtual client, recorded, and what a recording's calls say in the plainest way: for tests."""
 
 import itertools
 import threading
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import tomlkit
@@ -21,6 +22,7 @@ from mc_nested.live.input.input_controller import InputController
 from mc_nested.live.live_game import LiveGame
 from mc_nested.live.profile.arena import Arena
 from mc_nested.live.profile.tables import GameVersion, InputTable, Profile
+from mc_nested.live.recording.recording_file import TimedCall, read_recording
 from mc_nested.live.recording.run_recorder import open_recorder
 from mc_nested.live.vision.font import font_of
 from mc_nested.live.vision.game_screen import WindowScreen
@@ -135,3 +137,12 @@ def record_play(
                     if done == actions:
                         return failed
     return failed
+
+
+def timed(path: Path) -> Iterator[tuple[float, list[Any]]]:
+    """Return a recording's calls, each at the last time that its clock had told."""
+    now = 0.0
+    for each in read_recording(path):
+        if isinstance(each, TimedCall):
+            now = each.call[1] if each.call[0] in ("now", "sleep") else now
+            yield now, each.call

@@ -19,9 +19,9 @@ CLEAN = Names("/home/ann", ("ann", "left", "note")).removed_from
 
 def cleaned(folder: Path, *calls: list[Any]) -> list[list[Any]]:
     writer = PartWriter(folder / "whole.mcap", {"format": str(FORMAT)})
-    writer.write(list(enumerate(calls)), [], [])
+    writer.write([TimedCall(at, call) for at, call in enumerate(calls)])
     writer.close()
-    cut(folder / "whole.mcap", folder / "part.mcap", 0, len(calls), CLEAN)
+    cut(folder / "whole.mcap", folder / "part.mcap", clean=CLEAN)
     return [each.call for each in read_recording(folder / "part.mcap") if isinstance(each, TimedCall)]
 
 
@@ -52,9 +52,9 @@ def test_cutting_keeps_only_the_last_part_of_a_profiles_paths(tmp_path: Path) ->
     )
     document = tomlkit.dumps(profile.model_dump(mode="json", exclude_none=True, exclude_defaults=True))
     writer = PartWriter(tmp_path / "whole.mcap", {"format": str(FORMAT), "profile": document})
-    writer.write([(1, ["now", 1.0])], [], [])
+    writer.write([TimedCall(1, ["now", 1.0])])
     writer.close()
-    cut(tmp_path / "whole.mcap", tmp_path / "part.mcap", 0, 1, CLEAN)
+    cut(tmp_path / "whole.mcap", tmp_path / "part.mcap", clean=CLEAN)
     seen = profile_of(tmp_path / "part.mcap", facts_of(tmp_path / "part.mcap"))
     assert seen.screen == ScreenTable(font="~/1.20.1.jar", debug_scale=2)
     assert seen.world == WorldTable(folder="~/Arena", template="~/Arena", name="Arena")
@@ -65,10 +65,10 @@ def test_cutting_keeps_only_the_last_part_of_a_profiles_paths(tmp_path: Path) ->
 
 def test_cutting_a_recording_with_a_broken_profile_is_refused_and_writes_no_file(tmp_path: Path) -> None:
     writer = PartWriter(tmp_path / "whole.mcap", {"format": str(FORMAT), "profile": "[screen\n"})
-    writer.write([(1, ["now", 1.0])], [], [])
+    writer.write([TimedCall(1, ["now", 1.0])])
     writer.close()
     with pytest.raises(RecordingError, match=r"whole\.mcap: its profile"):
-        cut(tmp_path / "whole.mcap", tmp_path / "part.mcap", 0, 1, CLEAN)
+        cut(tmp_path / "whole.mcap", tmp_path / "part.mcap", clean=CLEAN)
     assert not (tmp_path / "part.mcap").exists()
 
 

@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 
 from mc_nested.live.recording import recorder, recording_file
-from mc_nested.live.recording.call_encoder import CallEncoder, KeptPicture
+from mc_nested.live.recording.call_encoder import CallEncoder
 from mc_nested.live.recording.format import FORMAT
 from mc_nested.live.recording.recorder import Recorder
 from mc_nested.live.recording.recording_file import TimedCall, overview_of, read_recording
@@ -55,7 +55,7 @@ def killed(folder: Path, after_s: float) -> float:
         killed_at = time.time()
         process.wait()
     read = list(read_recording(folder))
-    assert any(isinstance(each, KeptPicture) for each in read)
+    assert any(each.pictures for each in read if isinstance(each, TimedCall))
     assert len(list(folder.glob("*.mcap"))) > 1
     return killed_at - [each for each in read if isinstance(each, TimedCall)][-1].at / 1e9
 
@@ -88,8 +88,9 @@ def test_a_full_disk_ends_the_recording_and_not_the_run(tmp_path: Path, monkeypa
 
 def test_a_recorder_keeps_only_the_last_files_of_a_long_run(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(recorder, "PART_S", 0.0)
+    monkeypatch.setattr(recorder, "KEPT_BYTES", 6000)
     monkeypatch.setattr(recorder, "WRITE_EVERY_S", 0.01)
-    with Recorder(tmp_path / "long", FACTS, (854, 480), print, kept_bytes=6000) as recording:
+    with Recorder(tmp_path / "long", FACTS, (854, 480), print) as recording:
         for number in range(100):
             recording.tape.add("now", float(number))
             time.sleep(0.012)
@@ -132,6 +133,6 @@ def test_the_clipboards_text_is_never_recorded(tmp_path: Path) -> None:
         devices = recording.devices(client.devices)
         devices.clipboard.write("a secret")
         assert devices.clipboard.read() == "a secret"
-    each = list(read_recording(tmp_path / "clip"))
-    assert [one.call for one in each if isinstance(one, TimedCall)] == [["clipboard", "write"], ["clipboard", "read"]]
-    assert not any(isinstance(one, KeptPicture) for one in each)
+    calls = [each for each in read_recording(tmp_path / "clip") if isinstance(each, TimedCall)]
+    assert [each.call for each in calls] == [["clipboard", "write"], ["clipboard", "read"]]
+    assert not any(each.pictures for each in calls)

@@ -7,7 +7,6 @@ import pytest
 from calibration.font.sources import font_of_recording
 from calibration.installation.folders import System
 from mc_nested.errors import RecordingError
-from mc_nested.live.recording.call_encoder import KeptPicture
 from mc_nested.live.recording.cut import cut, trim
 from mc_nested.live.recording.format import FORMAT
 from mc_nested.live.recording.recording_file import PartWriter, TimedCall, facts_of, overview_of, read_recording
@@ -33,9 +32,9 @@ def calls_of(path: Path) -> list[TimedCall]:
     return [each for each in read_recording(path) if isinstance(each, TimedCall)]
 
 
-def written(path: Path, calls: list[TimedCall], facts: dict[str, str], pictures: list[KeptPicture]) -> Path:
+def written(path: Path, calls: list[TimedCall], facts: dict[str, str]) -> Path:
     writer = PartWriter(path, facts)
-    writer.write([(each.at, each.call) for each in calls], [], [(calls[0].at, picture) for picture in pictures])
+    writer.write(calls)
     writer.close()
     return path
 
@@ -72,8 +71,7 @@ def test_a_replay_reports_a_recorded_press_of_another_key_as_a_differing_decisio
     second = [at for at, each in enumerate(calls) if each.call[:2] == ["note", "resets"]][1]
     changed = next(at for at, each in enumerate(calls[:second]) if at > 300 and each.call[:3] == ["key", "press", "a"])
     calls[changed] = TimedCall(calls[changed].at, ["key", "press", "d"])
-    pictures = [each for each in read_recording(recording) if isinstance(each, KeptPicture)]
-    seen = replay(written(tmp_path / "changed.mcap", calls, dict(facts_of(recording)), pictures), FONT)
+    seen = replay(written(tmp_path / "changed.mcap", calls, dict(facts_of(recording))), FONT)
     (difference,) = seen.differences
     assert (difference.kind, difference.then, difference.now) == ("decision", "key press d", "key press a")
     # The other two episodes are followed to their end.
@@ -84,7 +82,7 @@ def test_a_cut_part_begins_at_a_reset_and_can_be_replayed_by_itself(recording: P
     calls = calls_of(recording)
     resets = [each.at for each in calls if each.call[:2] == ["note", "resets"]]
     out = tmp_path / "part.mcap"
-    cut(recording, out, resets[0] + 1, calls[-1].at)
+    cut(recording, out, (resets[0] + 1 - calls[0].at) / 1e9)
     assert calls_of(out)[0].at == resets[1]
     seen = replay(out, FONT)
     assert (seen.actions, seen.followed, seen.differences) == (35, 35, [])
@@ -92,15 +90,14 @@ def test_a_cut_part_begins_at_a_reset_and_can_be_replayed_by_itself(recording: P
 
 def test_cutting_removes_names_from_calls_and_title(recording: Path, tmp_path: Path) -> None:
     out = tmp_path / "part.mcap"
-    calls = calls_of(recording)
-    cut(recording, out, 0, calls[-1].at, lambda text: text.replace("Singleplayer", "<world>"))
+    cut(recording, out, clean=lambda text: text.replace("Singleplayer", "<world>"))
     assert "Singleplayer" not in json.dumps([each.call for each in calls_of(out)])
     assert facts_of(out)["title"].endswith("<world>")
 
 
 def test_cutting_a_time_without_calls_is_an_error_and_leaves_no_file(recording: Path, tmp_path: Path) -> None:
     with pytest.raises(RecordingError, match="nothing was recorded then"):
-        cut(recording, tmp_path / "none.mcap", 1, 2)
+        cut(recording, tmp_path / "none.mcap", 7200)
     assert list(tmp_path.iterdir()) == []
 
 
@@ -137,9 +134,8 @@ def test_a_replay_that_forgets_what_was_announced_differs(tmp_path: Path) -> Non
     for each in calls:
         if each.call[:2] == ["note", "acts"]:
             each.call[2].pop("following", None)
-    pictures = [each for each in read_recording(tmp_path / "play") if isinstance(each, KeptPicture)]
     facts = dict(facts_of(tmp_path / "play"))
-    seen = replay(written(tmp_path / "forgets.mcap", calls, facts, pictures), FONT)
+    seen = replay(written(tmp_path / "forgets.mcap", calls, facts), FONT)
     assert [each.kind for each in seen.differences] == ["decision"]
 
 
@@ -196,7 +192,7 @@ def test_a_recording_that_breaks_off_is_read_up_to_the_break(recording: Path, tm
     writer = PartWriter(file, facts_of(recording))
     ends = []
     for first in range(0, len(calls), 100):
-        writer.write([(each.at, each.call) for each in calls[first : first + 100]], [], [])
+        writer.write([TimedCall(each.at, each.call) for each in calls[first : first + 100]])
         ends.append(file.stat().st_size)
     writer.close()
     content = file.read_bytes()
