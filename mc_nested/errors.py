@@ -116,3 +116,8 @@ class UnreadableError(LiveError):
 
 class NotConfirmedError(LiveError):
     """A move or a placed block was not seen on the screen in time."""
+
+
+def with_extra(extra: str) -> str:
+    """Return what to do where a package that an extra of pyproject.toml brings is missing."""
+    return f"install mc-nested again with its extra, as '.[{extra}]' (docs/how-to/install.md)"

@@ -3,6 +3,8 @@
 Needs nothing but Python 3.10 to 3.14. Versions come from constraints.txt.
 """
 
+from __future__ import annotations  # an older Python reads this file, too, and says so
+
 import hashlib
 import json
 import os
@@ -12,9 +14,12 @@ import signal
 import subprocess
 import sys
 import sysconfig
-from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
 from pathlib import Path
+from typing import TYPE_CHECKING, NoReturn
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping, Sequence
 
 ROOT = Path(__file__).resolve().parent.parent
 ENVIRONMENT = ROOT / ".venv"
@@ -27,9 +32,9 @@ ENDS_WITHIN_S = 20.0
 def main_python(extras: Sequence[str] = ()) -> Path:
     """Return the environment's Python, with the project and extras installed; exit with one line if that fails."""
     if sys.version_info < OLDEST_PYTHON:
-        sys.exit(f"Python {sys.version.split()[0]} is too old: run this with Python 3.10 to 3.14")
+        _end(f"Python {sys.version.split()[0]} is too old: run this with Python 3.10 to 3.14")
     if sys.version_info[:2] > NEWEST_PYTHON:
-        sys.exit(f"Python {sys.version.split()[0]} is too new for numba and torch: run this with Python 3.10 to 3.14")
+        _end(f"Python {sys.version.split()[0]} is too new for numba and torch: run this with Python 3.10 to 3.14")
     python = ENVIRONMENT / ("Scripts/python.exe" if sys.platform == "win32" else "bin/python")
     if not python.exists():
         _make_environment()
@@ -87,11 +92,17 @@ def end(process: subprocess.Popen[bytes]) -> None:
                 process.wait(ENDS_WITHIN_S)
 
 
+def _end(line: str) -> NoReturn:
+    """Say what is wrong and what to do, and exit with 2, as for any mistake."""
+    print(line, file=sys.stderr)
+    sys.exit(2)
+
+
 def _make_environment() -> None:
     print(f"making {ENVIRONMENT}", flush=True)
     if run([sys.executable, "-m", "venv", ENVIRONMENT]):
         shutil.rmtree(ENVIRONMENT, ignore_errors=True)
-        sys.exit("no virtual environment could be made: install Python's venv (on Debian: apt install python3-venv)")
+        _end("no virtual environment could be made: install Python's venv (on Debian: apt install python3-venv)")
 
 
 def stamp_of(extras: Sequence[str]) -> str:
@@ -102,7 +113,7 @@ def stamp_of(extras: Sequence[str]) -> str:
 
 def _pip(python: Path, *what: str) -> None:
     if run([python, "-m", "pip", "install", "--disable-pip-version-check", "-c", "constraints.txt", *what]):
-        sys.exit("installing failed: see pip's message above, fix that and run this again")
+        _end("installing failed: see pip's message above, fix that and run this again")
 
 
 def _can_build_evdev() -> bool:

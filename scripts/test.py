@@ -5,20 +5,26 @@ Usage: python scripts/test.py [--all | --only NAME]
 Every check is run, even after one has failed. Exit code 1 where any failed, 130 after Ctrl+C.
 """
 
+from __future__ import annotations  # an older Python reads this file, too, and says so
+
 import argparse
 import shutil
-import subprocess
 import sys
 import tempfile
 import time
-from collections.abc import Iterator, Mapping, Sequence
 from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
 from xml.etree import ElementTree
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
+from typing import TYPE_CHECKING
+
 from scripts import environment
+
+if TYPE_CHECKING:
+    import subprocess
+    from collections.abc import Iterator, Mapping, Sequence
 
 EXTRAS = ["dev", "bench"]
 """What is installed beside the project: bench brings stable-baselines3, which an example and the benchmark train."""

@@ -106,7 +106,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
         if code == INTERRUPTED:  # typer's code for a KeyboardInterrupt, and for nothing else
             code = _say("stopped", INTERRUPTED)
     except typer.TyperException as error:
-        code = _say(error.format_message())
+        code = _say(error.format_message().replace("Value error, ", ""))
     except McNestedError as error:
         code = _say(str(error))
     except OSError as error:  # a path that the system refuses

@@ -107,7 +107,7 @@ def build(  # noqa: PLR0913 - a Typer verb: a parameter for each option
         typer.echo(
             f"  no block can land on {cells}: out of the agent's reach; it builds the other {scenario.blocks}", err=True
         )
-    opening = opening_of(profile, f"build-{scenario.name}", record, server_allowed=server_allowed)
+    opening = opening_of(profile, f"build-{scenario.name}", record, server_allowed=server_allowed, backend=backend)
     with viewed(view, "build", f"{scenario.name}, {where_words(backend)}") as viewing:
         opened = open_game(backend, scenario, replace(opening, journal=viewing.publisher.board))
         with opened as (played, display), filmed(played, display, scenario, video) as game:

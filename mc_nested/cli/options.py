@@ -14,7 +14,7 @@ from mc_nested.design_files.load import Loaded, load_any_scenario
 from mc_nested.errors import UserError
 from mc_nested.learn.preset import shipped_presets
 from mc_nested.live.profile.arena import size_for
-from mc_nested.live.session import Opening
+from mc_nested.live.session import OFF, Opening
 from sim.worlds import Backend
 
 DEFAULT_PROFILE = "default"
@@ -143,12 +143,20 @@ def is_alone(context: typer.Context) -> bool:
 
 
 def opening_of(
-    profile: str, what: str, record: str | None, *, server_allowed: bool = False, evidence: Path | None = None
+    profile: str,
+    what: str,
+    record: str | None,
+    *,
+    server_allowed: bool = False,
+    evidence: Path | None = None,
+    backend: Backend = Backend.LIVE,
 ) -> Opening:
     """Return how a live run is opened, by its options; ``what``, a word or two about the run, names its recording.
 
-    Raise RecordingError if the recording's folder holds something already.
+    Raise RecordingError if the recording's folder holds something already, UserError if there is nothing to record.
     """
+    if record not in (None, OFF) and backend is not Backend.LIVE:
+        raise UserError("only what is played in a window is recorded: add --backend live, or leave out --record")
     say = partial(typer.echo, err=True)
     return Opening(profile, say, what, record, is_server_allowed=server_allowed, evidence=evidence)
 

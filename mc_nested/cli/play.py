@@ -87,6 +87,7 @@ def play(  # noqa: PLR0913 - a Typer verb: a parameter for each option
         record,
         server_allowed=server_allowed,
         evidence=folder.path / "evidence",
+        backend=backend,
     )
     with viewed(view, "play", f"{scenario.name}, trial {which}, {where_words(backend)}") as viewing:
         publisher = viewing.publisher

@@ -13,7 +13,8 @@ from calibration.report.privacy import names_here
 from mc_nested.atomic_file import whole_folder
 from mc_nested.cli.options import is_alone
 from mc_nested.cli.output import JsonOption, Output, prints
-from mc_nested.errors import RecordingError
+from mc_nested.errors import RecordingError, with_extra
+from mc_nested.live.input.signals import signals_as_exit
 from mc_nested.live.recording.cut import cut, trim
 from mc_nested.live.recording.demonstrations import played_in
 from mc_nested.live.recording.recording_file import Overview, overview_of
@@ -117,7 +118,7 @@ def export(
 ) -> None:
     """Write what was played in recordings as a dataset that others can learn from, the chat blanked."""
     found = [played_in(recording_path(each)) for each in recordings]
-    with whole_folder(out, RecordingError) as folder:
+    with signals_as_exit(), whole_folder(out, RecordingError) as folder:
         try:
             if form == "minari":
                 from mc_nested.report.minari_dataset import write_minari
@@ -128,8 +129,7 @@ def export(
 
                 what = write_lerobot(folder, found, fps)
         except ImportError as error:
-            install = "pip install -c constraints.txt -e '.[share]'"
-            raise RecordingError(f"--format {form} needs {error.name}: {install}") from None
+            raise RecordingError(f"--format {form} needs {error.name}: {with_extra('share')}") from None
     for played in found:
         actions = [f"{played.left_out} actions"] if played.left_out else []
         if missing := [*actions, *played.damage]:

@@ -10,7 +10,7 @@ import cv2
 import typer
 from platformdirs import user_data_path
 
-from mc_nested.errors import DesktopError, UserError
+from mc_nested.errors import DesktopError, UserError, with_extra
 from mc_nested.live.input.signals import signals_as_exit
 from mc_nested.live.model.debug_entries import on_button, target_entry
 from mc_nested.live.model.versions import is_minecrafts
@@ -27,7 +27,6 @@ SMALLEST: Size = (320, 240)
 
 LARGEST: Size = (7680, 4320)
 
-INSTALL = "pip install -c constraints.txt -e '.[rehearse]'"
 PROFILE = "debug-profile.json"
 LOWEST_FPS, HIGHEST_FPS = 5.0, 300.0
 LONGEST_LAG_MS = 500.0
@@ -96,7 +95,7 @@ def rehearse(  # noqa: PLR0913 - a Typer verb: a parameter for each option
     try:
         from sim.window.rehearsal import Rehearsal, rehearse
     except ImportError as error:
-        raise DesktopError(f"the rehearsal window needs more ({error}): {INSTALL}") from error
+        raise DesktopError(f"the rehearsal window needs more ({error}): {with_extra('rehearse')}") from error
 
     def explain() -> None:
         pauses = (

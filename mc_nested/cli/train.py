@@ -182,19 +182,11 @@ def train(  # noqa: PLR0913 - a Typer verb: a parameter for each option
     if not is_alone(context):
         return
     served = games_of(games, keys, insecure, given(context))
-    opening = opening_of(profile, "train", record, server_allowed=server_allowed)
+    where = Backend.LIVE if resume else backend  # it is in the run's config.toml
+    opening = opening_of(profile, "train", record, server_allowed=server_allowed, backend=where)
     how = HowToRun(Output(quiet, as_json), opening, view, served)
     if resume is not None:
-        for option in given(context):
-            if option not in BESIDE_RESUME:
-                raise UserError(f"--resume goes on with the run's own config.toml: leave out {option}")
-        folder = RunFolder.open(resume)
-        if device:
-            folder = RunFolder(resume, folder.config.on_device(device))
-        if not is_given(context, "profile"):
-            how = replace(how, opening=replace(opening, profile=folder.config.profile or profile))
-        with folder_lock(resume):
-            run_training(folder, not folder.only_begun, how)
+        _resume(resume, given(context), device, how)
         return
     if agent not in AGENT_SPECS:
         raise UserError(f"no agent {agent!r}: choose one of {', '.join(AGENT_SPECS)}")
@@ -228,6 +220,22 @@ def train(  # noqa: PLR0913 - a Typer verb: a parameter for each option
         run_training(RunFolder.new(path, config), False, how, begin_from, shown)
 
 
+def _resume(path: Path, options: Sequence[str], device: str | None, how: HowToRun) -> None:
+    """Go on with a run from its last checkpoint."""
+    for option in options:
+        if option not in BESIDE_RESUME:
+            raise UserError(f"--resume goes on with the run's own config.toml: leave out {option}")
+    folder = RunFolder.open(path)
+    if folder.checkpoint.weights.is_file():
+        raise UserError(f"{path}: an exported model isn't resumed: begin from it with --from {path}")
+    if device:
+        folder = RunFolder(path, folder.config.on_device(device))
+    if "--profile" not in options and folder.config.profile:
+        how = replace(how, opening=replace(how.opening, profile=folder.config.profile))
+    with folder_lock(path):
+        run_training(folder, not folder.only_begun, how)
+
+
 app.command()(serve)
 app.command("keys")(make_keys)
 
@@ -259,7 +267,7 @@ def _shown(recordings: Sequence[Path], config: RunConfig, scenario: Scenario) ->
     if recordings and config.team:
         raise UserError("--from-recording is for one builder: leave out --builders, --start and --networks")
     if recordings and config.preset.states in (SCREEN, OBJECTIVES):
-        raise UserError(f"--from-recording doesn't go with states {config.preset.states!r}: take another --preset")
+        raise UserError(f"--from-recording doesn't go with states {config.preset.states!r}: take others, with --states")
     shown = list[Demonstration]()
     for recording in recordings:
         found, said = demonstrations_in(recording_path(recording), scenario)

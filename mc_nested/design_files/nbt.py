@@ -16,9 +16,7 @@ from collections.abc import Iterator
 from typing import Any, TypeVar
 
 from mc_nested.design_files.volume import MOST_CELLS, too_large_error
-from mc_nested.errors import ScenarioError
-
-INSTALL = "pip install -c constraints.txt -e '.[schematics]'"
+from mc_nested.errors import ScenarioError, with_extra
 
 MOST_BYTES = 32 * 1024 * 1024
 """Bytes of a file, and of what it unpacks to."""
@@ -57,7 +55,7 @@ def root_of(plain: bytes, most_reads: int = MOST_READS) -> Compound:
     try:
         import pynbt
     except ImportError:
-        raise ScenarioError(f"reading schematics needs pynbt: {INSTALL}") from None
+        raise ScenarioError(f"reading schematics needs pynbt: {with_extra('schematics')}") from None
     stream = _BoundedStream(plain, most_reads)
     try:
         root: Compound = pynbt.NBTFile(stream)

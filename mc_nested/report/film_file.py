@@ -12,7 +12,7 @@ import numpy as np
 from PIL import Image
 
 from mc_nested.arena.drawing import Picture
-from mc_nested.errors import FilmError
+from mc_nested.errors import FilmError, with_extra
 from mc_nested.report.arena_picture import DRAWN, INK, PALE_INK, PAPER
 
 CHOSEN = 64
@@ -92,8 +92,6 @@ def _sample_of(pictures: list[_Packed]) -> Image.Image:
     return Image.fromarray(np.concatenate([each.picture()[at % every :: every] for at, each in enumerate(pictures)]))
 
 
-INSTALL = "pip install -c constraints.txt -e '.[video]'"
-
 H264 = ("-c:v", "libx264", "-preset", "veryfast", "-crf", "20", "-pix_fmt", "yuv420p")
 """What every player knows; quick, since a game is played beside it."""
 
@@ -103,7 +101,7 @@ def check_ffmpeg() -> str:
     try:
         import imageio_ffmpeg
     except ImportError:
-        raise FilmError(f"an .mp4 film needs imageio-ffmpeg, a .gif doesn't: {INSTALL}") from None
+        raise FilmError(f"an .mp4 film needs imageio-ffmpeg, a .gif doesn't: {with_extra('video')}") from None
     try:
         program: str = imageio_ffmpeg.get_ffmpeg_exe()
     except RuntimeError:

@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 from mc_nested.arena.scenario import Scenario
 from mc_nested.arena.scenario_file import draw_grid
 from mc_nested.errors import RecordingError
+from mc_nested.live.profile.tables import KeysTable
 from mc_nested.live.recording.demonstrations import Played
 from mc_nested.live.recording.frames import PlayedFrame, frames_of
 from mc_nested.report.film_file import Mp4Encoder
@@ -25,7 +26,11 @@ from mc_nested.report.film_file import Mp4Encoder
 WINDOW = "observation.images.window"
 
 NAMES = {"observation.state": ["x", "y", "z", "yaw", "pitch"], "arena.cell": ["x", "y"], "arena.placed": ["x", "y"]}
-"""Names of a column's values; those of ``action`` are the keys and buttons that were ever down, and right button."""
+"""Names of a column's values."""
+
+_USUAL = KeysTable()
+KEYS = (_USUAL.forward, _USUAL.left, _USUAL.back, _USUAL.right, _USUAL.sneak, *_USUAL.hotbar, "mouse.right")
+"""Keys and buttons that ``action`` has a value for in every dataset; of others, those that were ever down."""
 
 _PLACE, _FIRST = "chunk-{chunk_index:03d}/file-{file_index:03d}", "chunk-000/file-000"
 
@@ -46,7 +51,7 @@ def write_lerobot(folder: Path, recordings: Sequence[Played], fps: int) -> str:
     for part in parts:
         (folder / part / _FIRST).parent.mkdir(parents=True)
     frames = _filmed(folder / f"videos/{WINDOW}/{_FIRST}.mp4", recordings, fps)
-    keys = sorted({"mouse.right"}.union(*(frame.held for frame in frames)))
+    keys = sorted({*KEYS, *set().union(*(frame.held for frame in frames))})
     task_of_each = [task_of(played.scenario) for played in recordings for _ in played.episodes]
     tasks = list(dict.fromkeys(task_of_each))
     index, episode = np.arange(len(frames)), np.array([frame.episode for frame in frames])

@@ -90,7 +90,7 @@ def _training(path: Path) -> RunFacts:
     if folder.only_begun:
         return facts
     try:
-        done, scores = folder.how_far()
+        done, _, scores = folder.how_far()
     except RunError as error:
         return replace(facts, state="damaged", why=str(error), episodes_done=None)
     finals = [score for score in scores if score is not None]

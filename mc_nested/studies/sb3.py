@@ -18,7 +18,7 @@ from mc_nested.arena.env import highest_observation
 from mc_nested.arena.scenario import Scenario
 from mc_nested.arena.single import SingleAgentVectorEnv
 from mc_nested.arrays import Int64s
-from mc_nested.errors import PresetError, RunError
+from mc_nested.errors import PresetError, RunError, with_extra
 from mc_nested.learn.episode_log import EvaluationRow
 from mc_nested.learn.exploration.schedules import epsilon_after
 from mc_nested.learn.preset import Preset
@@ -27,7 +27,7 @@ from mc_nested.studies.arm import LIBRARY
 from mc_nested.studies.job import Job
 from mc_nested.studies.outcome import JobOutcome, RunOutcome, evaluated, write_outcome
 
-HOW_TO_INSTALL = "pip install -c constraints.txt -e '.[bench]'"
+HOW_TO_INSTALL = with_extra("bench")
 
 
 def is_installed() -> bool:

@@ -286,8 +286,8 @@ def main() -> None:
         name, default, among = setting.name.replace("_", "-"), setting.default, choices.get(setting.name)
         parser.add_argument(f"--{name}", type=type(default), default=default, choices=among, help=f"[{default}]")
     settings = Settings(**vars(parser.parse_args()))
-    least = min(settings.trials, settings.batch, settings.hidden, settings.target_period, settings.evaluate_every)
-    if least < 1 or settings.episodes < settings.evaluate_every:
+    counts = settings.trials, settings.batch, settings.hidden, settings.target_period, settings.evaluate_every
+    if min(*counts, settings.replay) < 1 or settings.episodes < settings.evaluate_every:
         parser.error("whole numbers have to be 1 at least, and episodes no fewer than from one evaluation to the next")
     episodes, scores, _ = train(settings, show=True)
     early = episodes <= max(settings.evaluate_every, min(1000, settings.episodes // 3))

@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 import yaml
 
+from mc_nested.errors import with_extra
 from mc_nested.learn.runs.run_folder import RunFolder
 from tests.cli.running import TRAIN, run
 from tests.recordings.test_recordings import VIRTUAL
@@ -84,7 +85,7 @@ def test_a_missing_package_is_named_with_its_extra(
     said = capsys.readouterr().err
     assert said.count("\n") == 1
     assert package.replace("_", "-") in said.replace("_", "-")
-    assert f"pip install -c constraints.txt -e '.[{extra}]'" in said
+    assert with_extra(extra) in said
     assert list(tmp_path.iterdir()) == []
 
 
@@ -119,10 +120,13 @@ def test_the_card_has_the_runs_figures(exported: Path, trained: Path) -> None:
     (metric,) = card["model-index"][0]["results"][0]["metrics"]
     assert metric["value"] == sum(finals) / 2
     for row in (
-        f"| final score of each trial | {finals[0]:g}, {finals[1]:g} |",
-        "| optimum | 21 |",
-        "| trials, seed | 2, 3 |",
+        f"| score of each trial's greedy episode | {finals[0]:g}, {finals[1]:g} |",
+        "| highest score possible | 21 |",
+        "| trials | 2 |",
+        "| seed of all random choices | 3 |",
         "| training episodes, all trials | 80 of at most 80 |",
+        "| of these, shown by a person | 0 |",
+        "| training ended | after all episodes |",
     ):
         assert row in text
     assert "mc-nested play model" in text
@@ -154,7 +158,10 @@ def test_texts_of_others_are_shown_as_they_are_and_no_path_or_name_is(
 
 def test_an_exported_run_cannot_be_resumed(exported: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert run("train", "--resume", exported) == 2
-    assert "checkpoint is gone" in capsys.readouterr().err
+    assert capsys.readouterr().err == (
+        f"mc-nested: {exported}: an exported model isn't resumed: begin from it with --from {exported}\n"
+    )
+    assert not (exported / "view").exists()
 
 
 @pytest.mark.parametrize(

@@ -15,7 +15,7 @@ from mc_nested.arena.scenario_file import load_scenario
 from mc_nested.design_files.load import chosen_layer, is_design_file, load_any_scenario, ranges, read_volume
 from mc_nested.design_files.nbt import MOST_BYTES
 from mc_nested.design_files.volume import Volume
-from mc_nested.errors import ScenarioError
+from mc_nested.errors import ScenarioError, with_extra
 from tests.design_files.written import HUT, NAMES, WRITERS, Drawing, cells, nbt_file, picture, sponge
 
 Write = Callable[[str, bytes], Path]
@@ -194,7 +194,5 @@ def test_a_schematic_without_pynbt_is_refused_with_the_install_command(
     monkeypatch.setitem(sys.modules, "pynbt", None)
     with pytest.raises(ScenarioError) as refused:
         read_volume(write("hut.schem", sponge(HUT)))
-    assert str(refused.value).endswith(
-        "hut.schem: reading schematics needs pynbt: pip install -c constraints.txt -e '.[schematics]'"
-    )
+    assert str(refused.value).endswith(f"hut.schem: reading schematics needs pynbt: {with_extra('schematics')}")
     assert load_any_scenario(write("hut.png", picture(HUT[0]))).scenario.blocks

@@ -8,9 +8,8 @@ from typing import NamedTuple
 
 import pytest
 
-from mc_nested.errors import FilmError, LiveError
+from mc_nested.errors import FilmError, LiveError, with_extra
 from mc_nested.report.film import LAST_S, check_film, open_film
-from mc_nested.report.film_file import INSTALL
 from tests.full_disk import full_disk
 from tests.report.films import BLUE, GREEN, RED, flat, pictures_of, shown
 
@@ -142,7 +141,7 @@ def test_a_missing_imageio_ffmpeg_refuses_an_mp4_with_the_install_command_but_no
     monkeypatch.setitem(sys.modules, "imageio_ffmpeg", None)
     with pytest.raises(FilmError) as caught:
         check_film(tmp_path / "film.mp4")
-    assert str(caught.value) == f"an .mp4 film needs imageio-ffmpeg, a .gif doesn't: {INSTALL}"
+    assert str(caught.value) == f"an .mp4 film needs imageio-ffmpeg, a .gif doesn't: {with_extra('video')}"
     check_film(tmp_path / "film.gif")
 
 

@@ -14,14 +14,14 @@ from mc_nested.arena.cooperative.team import Team, TeamGame
 from mc_nested.arena.cooperative.team_env import TeamVectorEnv, rendered_team
 from mc_nested.arena.env import RENDERING, highest_observation, space_up_to
 from mc_nested.arrays import Int64s
-from mc_nested.errors import UserError
-
-INSTALL = "pip install -c constraints.txt -e '.[pettingzoo]'"
+from mc_nested.errors import UserError, with_extra
 
 try:
     from pettingzoo import ParallelEnv
 except ImportError:
-    raise UserError(f"several builders as a PettingZoo environment need pettingzoo: {INSTALL}") from None
+    raise UserError(
+        f"several builders as a PettingZoo environment need pettingzoo: {with_extra('pettingzoo')}"
+    ) from None
 
 Of = dict[str, Any]
 """Something of each agent, by its name."""

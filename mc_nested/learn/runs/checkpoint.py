@@ -30,7 +30,7 @@ ABOUT = "about"
 SEAL = "checksum"
 """The key of a JSON file that holds the fingerprint of the others."""
 
-_EXPORTED = ("policies.", "runs.episodes", "runs.finished")
+_EXPORTED = ("policies.", "runs.episodes", "runs.finished", "runs.demonstrated")
 """What an exported training keeps of its state."""
 
 _CHECKSUM_BYTES, _AT_ONCE = hashlib.sha256().digest_size, 1 << 20
@@ -125,7 +125,7 @@ class Checkpoint:
                 self._check((weights.metadata() or {}).get("identity"), self.weights)
                 return {name: weights.get_tensor(name) for name in weights.keys()}  # noqa: SIM118 - it is no mapping
         except (OSError, SafetensorError) as error:
-            raise self._damaged(self.weights) from error
+            raise self._damaged(self.weights.absolute()) from error
 
     def export_to(self, other: "Checkpoint") -> None:
         """Save the networks that play, and how far they are, as another checkpoint's weights; RunError as ``state``."""

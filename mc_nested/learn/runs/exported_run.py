@@ -3,8 +3,10 @@
 It is the folder of a training all the same, which can be played, but not resumed.
 """
 
+import importlib.metadata
 import json
 import re
+import shlex
 from collections.abc import Callable
 from pathlib import Path
 
@@ -21,20 +23,27 @@ model-index: {index}
 
 # {title}
 
-Learnt with mc-nested: an agent that builds in Minecraft Java Edition through keyboard, mouse and screen.
+Learnt with mc-nested {version}, which teaches an agent to build in Minecraft Java Edition through keyboard, mouse and
+screen. It implements *Hierarchical Reinforcement Learning with Deep Nested Agents* (Brittain and Wei, 2018), and has
+never been tried in the real game, only in what stands in for it.
 
 | | |
 | --- | --- |
 | learnt in | {backend} |
-| trials, seed | {trials}, {seed} |
+| trials | {trials} |
+| seed of all random choices | {seed} |
 | training episodes, all trials | {done:,} of at most {most:,} |
-| final score of each trial | {scores} |
-| optimum | {optimum:g} |
+| of these, shown by a person | {demonstrated:,} |
+| training ended | {ended} |
+| score of each trial's greedy episode | {scores} |
+| highest score possible | {optimum:g} |
+
+The design, seen from above, the far edge on top:
 
 ```text
 {design}```
 
-With mc-nested installed, this plays it, in the simulator or with `--backend live` in your game:
+Where mc-nested is installed, this plays it, in the simulator or with `--backend live` in your game:
 
 ```bash
 mc-nested play {name}
@@ -56,7 +65,7 @@ def export_run(run: RunFolder, folder: Path, name: str, clean: Callable[[str], s
 
 
 def _card_of(run: RunFolder, name: str) -> str:
-    config, (done, scores) = run.config, run.how_far()
+    config, (done, demonstrated, scores) = run.config, run.how_far()
     finals = [score for score in scores if score is not None]
     metrics = [{"type": "mean_reward", "value": sum(finals) / len(finals)}] if finals else []
     task, design = {"type": "reinforcement-learning"}, {"type": "mc-nested", "name": config.scenario.name}
@@ -69,8 +78,11 @@ def _card_of(run: RunFolder, name: str) -> str:
         seed=config.seed,
         done=done,
         most=config.preset.episodes * config.trials,
+        demonstrated=demonstrated,
+        ended="at the first greedy episode at the optimum" if config.stop_at_optimum else "after all episodes",
+        version=importlib.metadata.version("mc-nested"),
         scores=", ".join("not finished" if score is None else f"{score:g}" for score in scores),
         optimum=run.scenario.optimum,
         design=draw_grid(run.scenario.design, run.scenario.size),
-        name=name,
+        name=shlex.quote(name),
     )

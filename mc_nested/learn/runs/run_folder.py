@@ -7,6 +7,7 @@ from contextlib import AbstractContextManager
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import tomlkit
 
 from mc_nested.arena.cooperative.team import Team
@@ -141,14 +142,17 @@ class RunFolder:
             )
         return kept
 
-    def how_far(self) -> tuple[int, list[float | None]]:
-        """Return how many training episodes all trials have done, and each one's final score, None before its end.
+    def how_far(self) -> tuple[int, int, list[float | None]]:
+        """Return how many training episodes all trials have done, in how many of them a person acted, and each score.
+
+        A trial's is None before its end.
 
         RunError as for ``policies``.
         """
         scores, runs = self.policies()["scores"], part_of(self.checkpoint.state(), "runs")
         ends = zip(scores.tolist(), runs["finished"], strict=True)
-        return int(runs["episodes"].sum()), [score if finished else None for score, finished in ends]
+        counts = int(runs["episodes"].sum()), int(np.sum(runs.get("demonstrated", 0)))  # none by a version before
+        return *counts, [score if finished else None for score, finished in ends]
 
     def policy_of(self, trial: int) -> Arrays:
         """Return the networks of one trial's policy, by role, for ``Agent.load_online``.

@@ -8,7 +8,7 @@ from contextlib import contextmanager
 from threading import Thread
 from typing import TYPE_CHECKING, TypeVar
 
-from mc_nested.errors import ClusterError
+from mc_nested.errors import ClusterError, with_extra
 from mc_nested.workers.cluster.address import SchedulerAddress
 from mc_nested.workers.cluster.keys import AUTHORITY, CERTIFICATE, KEY
 
@@ -21,8 +21,6 @@ CONNECT_S = 10.0
 LONGER_S = 2.0
 """Seconds longer, before it is given up."""
 
-HOW_TO_INSTALL = "pip install -c constraints.txt -e '.[cluster]'"
-
 
 def check_installed() -> None:
     """Raise ClusterError if Dask or cryptography isn't installed."""
@@ -30,7 +28,7 @@ def check_installed() -> None:
         import cryptography  # noqa: F401 - only whether it is there
         import distributed  # noqa: F401 - likewise
     except ImportError as error:
-        raise ClusterError(f"a cluster needs Dask, which isn't installed: {HOW_TO_INSTALL}") from error
+        raise ClusterError(f"a cluster needs Dask, which isn't installed: {with_extra('cluster')}") from error
 
 
 def security_of(address: SchedulerAddress) -> "Security":

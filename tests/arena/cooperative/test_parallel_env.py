@@ -76,5 +76,5 @@ def test_only_the_cooperative_env_needs_pettingzoo_and_names_the_command_to_inst
     said = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True).stdout
     assert said == (
         "several builders as a PettingZoo environment need pettingzoo: "
-        "pip install -c constraints.txt -e '.[pettingzoo]'\n"
+        "install mc-nested again with its extra, as '.[pettingzoo]' (docs/how-to/install.md)\n"
     )
