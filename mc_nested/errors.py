@@ -1,29 +1,4 @@
-"""All errors that are raised on purpose, as one tree. Each message is one line: what is wrong, and what to do.
-
-McNestedError
-├── UserError            something the user can fix; the command line prints it and exits with 2
-│   ├── ScenarioError    a scenario that can't be found, read or built
-│   ├── PresetError      a preset that can't be found or read
-│   ├── ProfileError     a profile that can't be found or read, or doesn't fit the screen
-│   ├── FontError        a font picture or jar that can't be used
-│   ├── PictureError     a file that is no picture, so that nothing can be read of it
-│   ├── FilmError        a film that can't be written
-│   ├── DivergedError    a training whose networks hold what is no number
-│   ├── RecordingError   a recording that can't be used
-│   ├── RunError         an output folder, a run or a checkpoint that can't be used
-│   ├── ClusterError     a cluster that can't be reached, or whose workers can't be used
-│   └── DesktopError     no display, a Wayland session without Xwayland, a window that can't be used
-│       ├── NoWindowError     no window of that title is there
-│       ├── SeveralWindowsError  several windows of that title are there
-│       └── ClipboardError    a clipboard that can't be read, or whose content could not be put back
-└── LiveError            the game did not do what was asked; keys are released before it is raised
-    ├── NotInFrontError  another window is in front: nothing was pressed
-    ├── WrongScreenError the screen was not just seen to be the one that a press is meant for: nothing was pressed
-    ├── TakenOverError   the player has taken over: nothing was pressed
-    ├── StoppedError     stopped by the panic key or the mouse in a corner: it is not tried again
-    ├── UnreadableError  the debug screen stayed unreadable for too long
-    └── NotConfirmedError  a move or a placed block was not seen on the screen in time
-"""
+"""All errors that are raised on purpose. Each message is one line: what is wrong, and what to do."""
 
 
 class McNestedError(Exception):
@@ -31,7 +6,7 @@ class McNestedError(Exception):
 
 
 class UserError(McNestedError):
-    """A mistake that the user can fix."""
+    """Something that the user can fix: the command line prints it, and exits with 2."""
 
 
 class ScenarioError(UserError):
