@@ -6,6 +6,7 @@ Each of its panels is drawn by a function, and only where something in it has ch
 import contextlib
 import time
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 from typing import ClassVar, NamedTuple
 
@@ -22,12 +23,13 @@ from mc_nested.view import panels
 from mc_nested.view.files import (
     FOLDER,
     NOW,
+    PAUSE,
+    STOP,
+    TAKEOVER,
     Scrubber,
     YesOrNo,
-    ask_pause,
-    ask_takeover,
+    ask,
     ask_to_go_on,
-    ask_to_stop,
     give_answer,
     history_of,
     is_published,
@@ -178,7 +180,7 @@ class ViewApp(App[None]):
         """Ask to pause, or to go on."""
         status = self._status
         self._pauses = not (self._pauses or status.paused or status.pausing)
-        self._ask(ask_pause if self._pauses else ask_to_go_on)
+        self._ask(partial(ask, PAUSE) if self._pauses else ask_to_go_on)
 
     async def action_quit(self) -> None:
         """Close; the pause that this view asked for ends."""
@@ -208,11 +210,11 @@ class ViewApp(App[None]):
 
     def action_stop(self) -> None:
         """Ask to stop, as Ctrl+C does in the run's terminal."""
-        self._ask(ask_to_stop)
+        self._ask(partial(ask, STOP))
 
     def action_take_over(self) -> None:
         """Let the player take over, or give back."""
-        self._ask(ask_takeover)
+        self._ask(partial(ask, TAKEOVER))
 
     def action_answer(self, is_yes: bool) -> None:
         """Answer the run's question, if it has one and that is on the screen."""

@@ -212,9 +212,12 @@ class YesOrNo(BaseModel):
     is_yes: bool
 
 
-def ask_pause(folder: Path) -> None:
-    """Ask the run in a folder to pause. Raise OSError if nothing can be written there."""
-    (folder / FOLDER / PAUSE).touch()
+def ask(request: str, folder: Path) -> None:
+    """Ask the run in a folder to pause, to stop (that can't be taken back), or to hand the game to the player or back.
+
+    Raise OSError if nothing can be written there.
+    """
+    (folder / FOLDER / request).touch()
 
 
 def renew_pause(folder: Path) -> bool:
@@ -230,16 +233,6 @@ def renew_pause(folder: Path) -> bool:
 def ask_to_go_on(folder: Path) -> None:
     """Ask the run to go on. Raise OSError if the file can't be removed."""
     (folder / FOLDER / PAUSE).unlink(missing_ok=True)
-
-
-def ask_to_stop(folder: Path) -> None:
-    """Ask the run to stop: that can't be taken back. Raise OSError if nothing can be written there."""
-    (folder / FOLDER / STOP).touch()
-
-
-def ask_takeover(folder: Path) -> None:
-    """Ask the run to let the player take over, or to take the game back. Raise OSError if nothing can be written."""
-    (folder / FOLDER / TAKEOVER).touch()
 
 
 def give_answer(folder: Path, answer: YesOrNo) -> None:

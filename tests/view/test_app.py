@@ -11,7 +11,7 @@ from textual.pilot import Pilot
 
 from mc_nested.view import app as looking
 from mc_nested.view.app import ViewApp
-from mc_nested.view.files import FOLDER, TAKEOVER, Requests, StatusFiles, ask_pause
+from mc_nested.view.files import FOLDER, PAUSE, TAKEOVER, Requests, StatusFiles, ask
 from mc_nested.view.status import FORMAT, ArenaSeen, Learning, Standing, Status
 from mc_nested.view.words import FRESH_S
 from tests.view.shown import LIVE, screen_text
@@ -244,7 +244,7 @@ def pressing(*keys: str) -> Act:
 def test_p_resumes_a_run_that_another_view_paused(live: Path) -> None:
     (live / FOLDER).mkdir()
     requests = Requests(live)
-    ask_pause(live)
+    ask(PAUSE, live)
 
     shown(live, STATUSES["paused"], SIZES["80x24"], pressing("p"))
 

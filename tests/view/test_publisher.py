@@ -12,13 +12,12 @@ from mc_nested.view import publisher as publishing
 from mc_nested.view.board import Board
 from mc_nested.view.files import (
     FOLDER,
+    PAUSE,
     STOP,
     TAKEOVER,
     YesOrNo,
-    ask_pause,
-    ask_takeover,
+    ask,
     ask_to_go_on,
-    ask_to_stop,
     give_answer,
     is_published,
     status_now,
@@ -97,7 +96,7 @@ def test_a_run_waits_while_a_person_wants_a_pause(tmp_path: Path) -> None:
     with a_publisher(tmp_path) as publisher:
         publisher.wait_while_paused()
         assert not publisher.was_paused_lately
-        ask_pause(tmp_path)
+        ask(PAUSE, tmp_path)
         until(lambda: publisher.is_paused)
         until(lambda: status_now(tmp_path).pausing)
         waits = threading.Thread(target=publisher.wait_while_paused)
@@ -119,17 +118,17 @@ def test_a_view_takes_over_only_while_that_is_offered(tmp_path: Path) -> None:
     with a_publisher(tmp_path) as publisher:
         with publisher.offer_takeover(lambda: switched.append("over")):
             until(lambda: status_now(tmp_path).can_take_over)
-            ask_takeover(tmp_path)
+            ask(TAKEOVER, tmp_path)
             until(lambda: switched == ["over"])
         until(lambda: not status_now(tmp_path).can_take_over)
-        ask_takeover(tmp_path)
+        ask(TAKEOVER, tmp_path)
         until(lambda: not (tmp_path / FOLDER / TAKEOVER).exists())
     assert switched == ["over"]
 
 
 def test_paused_run_waits_no_longer_once_it_is_over(tmp_path: Path) -> None:
     with a_publisher(tmp_path) as publisher:
-        ask_pause(tmp_path)
+        ask(PAUSE, tmp_path)
         until(lambda: publisher.is_paused)
         publisher.wait_while_paused(lambda: True)
 
@@ -138,14 +137,14 @@ def test_stop_request_ends_a_pause_and_stops_the_run_once(tmp_path: Path) -> Non
     stops: list[str] = []
     lines = Counted()
     with a_publisher(tmp_path, lambda: stops.append("stop"), lines) as publisher:
-        ask_pause(tmp_path)
+        ask(PAUSE, tmp_path)
         until(lambda: publisher.is_paused)
-        ask_to_stop(tmp_path)
+        ask(STOP, tmp_path)
         until(lambda: status_now(tmp_path).stopping)
         publisher.wait_while_paused()
         (tmp_path / FOLDER / STOP).unlink()
         lines.until_asked_again()
-        ask_to_stop(tmp_path)
+        ask(STOP, tmp_path)
         lines.until_asked_again()
 
     assert stops == ["stop"]
@@ -195,7 +194,7 @@ def test_run_goes_on_and_hears_a_stop_if_its_status_cannot_be_written(tmp_path: 
     with a_publisher(tmp_path, lambda: stops.append("stop"), lines) as publisher:
         publisher.board.show(arena="no arena")
         lines.until_asked_again()
-        ask_to_stop(tmp_path)
+        ask(STOP, tmp_path)
         until(lambda: bool(stops))
         publisher.board.show(arena=None)
 

@@ -8,12 +8,12 @@ from mc_nested.view.files import (
     FOLDER,
     PAUSE,
     RENEWED_S,
+    STOP,
+    TAKEOVER,
     Requests,
     YesOrNo,
-    ask_pause,
-    ask_takeover,
+    ask,
     ask_to_go_on,
-    ask_to_stop,
     give_answer,
     renew_pause,
 )
@@ -46,8 +46,8 @@ def test_a_new_run_has_no_requests(run: Path) -> None:
 
 
 def test_requests_to_an_earlier_run_are_forgotten(run: Path) -> None:
-    ask_pause(run)
-    ask_to_stop(run)
+    ask(PAUSE, run)
+    ask(STOP, run)
     give_answer(run, YesOrNo(number=1, is_yes=True))
 
     requests = Requests(run)
@@ -59,7 +59,7 @@ def test_requests_to_an_earlier_run_are_forgotten(run: Path) -> None:
 
 def test_pause_lasts_until_somebody_asks_to_go_on(run: Path) -> None:
     requests = Requests(run)
-    ask_pause(run)
+    ask(PAUSE, run)
     assert requests.is_pause_asked()
     ask_to_go_on(run)
     assert not requests.is_pause_asked()
@@ -69,7 +69,7 @@ def test_pause_lasts_until_somebody_asks_to_go_on(run: Path) -> None:
 def test_pause_ends_if_nobody_renews_it(run: Path) -> None:
     clock = Clock()
     requests = Requests(run, clock)
-    ask_pause(run)
+    ask(PAUSE, run)
     assert requests.is_pause_asked()
     clock.now += RENEWED_S - 0.1
     renewed(run, 1)
@@ -81,7 +81,7 @@ def test_pause_ends_if_nobody_renews_it(run: Path) -> None:
 
 
 def test_a_view_renews_a_pause_unless_another_one_ended_it(run: Path) -> None:
-    ask_pause(run)
+    ask(PAUSE, run)
     assert renew_pause(run)
     ask_to_go_on(run)
     assert not renew_pause(run)
@@ -90,8 +90,8 @@ def test_a_view_renews_a_pause_unless_another_one_ended_it(run: Path) -> None:
 
 def test_a_stop_is_heard_beside_any_other_request(run: Path) -> None:
     requests = Requests(run)
-    ask_to_stop(run)
-    ask_pause(run)
+    ask(STOP, run)
+    ask(PAUSE, run)
     ask_to_go_on(run)
     give_answer(run, YesOrNo(number=1, is_yes=True))
 
@@ -116,7 +116,7 @@ def test_a_damaged_answer_counts_as_none(run: Path, text: str) -> None:
 
 def test_a_run_that_is_gone_can_not_be_asked(tmp_path: Path) -> None:
     with pytest.raises(FileNotFoundError):
-        ask_to_stop(tmp_path)
+        ask(STOP, tmp_path)
     assert not renew_pause(tmp_path)
 
 
@@ -137,9 +137,9 @@ def test_an_answer_that_can_not_be_replaced_yet_is_written_again(run: Path, monk
 
 
 def test_each_request_to_take_over_is_taken_once(run: Path) -> None:
-    ask_takeover(run)
+    ask(TAKEOVER, run)
     requests = Requests(run)
     assert not requests.takes_takeover(), "it was asked of an earlier run"
-    ask_takeover(run)
+    ask(TAKEOVER, run)
     assert requests.takes_takeover()
     assert not requests.takes_takeover()
