@@ -7,8 +7,9 @@ from collections.abc import Mapping
 
 from calibration.doctor.check import FIX, Check, CheckName, check_from_message
 from calibration.installation.folders import GameFolder
-from calibration.installation.options_txt import ACTIONS, FIXED, NO_KEY, OptionsTxt, is_same_key, key_name, load_options
+from calibration.installation.options_txt import ACTIONS, FIXED, NO_KEY, OptionsTxt, key_name, load_options
 from mc_nested.errors import ProfileError
+from mc_nested.live.model.keys import canonical
 from mc_nested.live.profile.tables import KeysTable
 from mc_nested.live.vision.layout import largest_gui_scale
 from mc_nested.live.vision.overlay import SCALES
@@ -116,6 +117,9 @@ SWITCHES = (
 )
 """The check of each option that should be false, if it is true."""
 
+SAFE = {**{row.name.value: "false" for row in SWITCHES}, "reducedDebugInfo": "false", "lang": "en_us"}
+"""Safe values, whatever the window's size and the player's keys."""
+
 OPTION_CHECKS = (
     *(row.name for row in SWITCHES),
     *(CheckName.GUI_SCALE, CheckName.DEBUG_GUI_SCALE, *CHAT_CHECKS, CheckName.LANGUAGE, CheckName.KEYS),
@@ -196,7 +200,7 @@ def keys_row(options: OptionsTxt, keys: KeysTable) -> Check:
     bound = {action: options.key(action) for action in wanted if f"key_key.{action}" in options.values}
     if not bound:
         return Check(CheckName.KEYS, "skip", "the file doesn't say")
-    different = {action: key for action, key in bound.items() if key is None or not is_same_key(key, wanted[action])}
+    different = {each: key for each, key in bound.items() if key is None or canonical(key) != canonical(wanted[each])}
     if not different:
         return Check(CheckName.KEYS, "pass", f"{len(bound)} are as the profile has them")
     now = {action: "another key" if key is None else key or "no key" for action, key in different.items()}

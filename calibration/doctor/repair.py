@@ -11,8 +11,8 @@ from collections.abc import Callable
 from pathlib import Path
 
 from calibration.doctor.examination import Examination
-from calibration.doctor.options_rows import chat_mends, debug_scale_row, gui_scale_row
-from calibration.installation.options_txt import SAFE, OptionsTxt
+from calibration.doctor.options_rows import SAFE, chat_mends, debug_scale_row, gui_scale_row
+from calibration.installation.options_txt import OptionsTxt
 from calibration.installation.processes import may_have_open
 from mc_nested.atomic_file import refused_as
 from mc_nested.errors import ProfileError

@@ -10,21 +10,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from mc_nested.errors import ProfileError
-from mc_nested.live.model.keys import EXTENDED, PLACES, canonical, is_key
-
-SAFE: Mapping[str, str] = {
-    "pauseOnLostFocus": "false",
-    "autoJump": "false",
-    "fullscreen": "false",
-    "forceUnicodeFont": "false",
-    "reducedDebugInfo": "false",
-    "toggleCrouch": "false",
-    "toggleAttack": "false",
-    "toggleUse": "false",
-    "saveChatDrafts": "false",
-    "lang": "en_us",
-}
-"""Safe values, whatever the window's size and the player's keys."""
+from mc_nested.live.model.keys import EXTENDED, PLACES, is_key
 
 ACTIONS: Mapping[str, str] = {
     "forward": "forward",
@@ -141,11 +127,6 @@ def key_name(value: str) -> str | None:
         return None
     known = _MARKS.get(word, word)
     return known if is_key(known) else None
-
-
-def is_same_key(one: str, other: str) -> bool:
-    """Return whether two names mean the same key, as ``esc`` and ``escape``, ``w`` and ``W`` do."""
-    return canonical(one) == canonical(other)
 
 
 def _text(line: bytes) -> str:

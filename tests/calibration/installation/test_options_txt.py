@@ -6,7 +6,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from calibration.installation.options_txt import SAFE, OptionsTxt, is_same_key, key_name, load_options, parse_options
+from calibration.doctor.options_rows import SAFE
+from calibration.installation.options_txt import OptionsTxt, key_name, load_options, parse_options
 from mc_nested.errors import ProfileError
 
 HERE = Path("options.txt")
@@ -89,13 +90,6 @@ def test_key_numbers_of_1_12_are_read_as_the_same_key_names() -> None:
 )
 def test_key_codes_are_translated_to_the_key_names_of_profiles(value: str, name: str | None) -> None:
     assert key_name(value) == name
-
-
-def test_two_names_of_one_key_are_the_same() -> None:
-    assert is_same_key("esc", "escape")
-    assert is_same_key("W", "w")
-    assert not is_same_key("left.shift", "right.shift")
-    assert not is_same_key("left", "a")
 
 
 def test_last_value_of_a_repeated_option_counts() -> None:
