@@ -74,8 +74,11 @@ def registered_steps(
     ]
 
 
-class StepProgress(Protocol):
+class CalibrationProgress(Protocol):
     """Is notified of the progress of the run. Seconds are those of the game window's clock."""
+
+    def doctor_done(self, checks: Sequence[Check]) -> None:
+        """Tell that the doctor is done, and that every gate is passed."""
 
     def begin(self, name: str, number: int, of: int) -> None:
         """Step ``number`` of ``of`` begins; the first is 1."""
@@ -100,7 +103,7 @@ def run_steps(
     steps: Sequence[CalibrationStep],
     context: CalibrationContext,
     profile: Profile,
-    progress: StepProgress,
+    progress: CalibrationProgress,
     recover: Callable[[Profile], object],
 ) -> RunResult:
     """Run the steps in order.
@@ -172,13 +175,6 @@ def check_gates(checks: Sequence[Check]) -> None:
 
 Examine = Callable[[str], Sequence[Check]]
 """The doctor's checks for the profile of that name."""
-
-
-class CalibrationProgress(StepProgress, Protocol):
-    """Is notified of the progress of the guided run."""
-
-    def doctor_done(self, checks: Sequence[Check]) -> None:
-        """Tell that the doctor is done, and that every gate is passed."""
 
 
 @dataclass(frozen=True)
