@@ -7,7 +7,6 @@ Where there is no terminal, a line of text now and then.
 import contextlib
 import time
 from collections.abc import Callable
-from types import TracebackType
 
 import numpy as np
 from rich.console import Console, Group, RenderableType
@@ -98,9 +97,7 @@ class TrainingProgress:
             self._next += LINE_EVERY_S
         return self
 
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, traceback: TracebackType | None
-    ) -> None:
+    def __exit__(self, _: object, error: BaseException | None, *__: object) -> None:
         self._look_again = 0.0
         if self.in_terminal or error is None:  # what failed is one line
             self._refresh(time.monotonic())
