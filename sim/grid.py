@@ -9,13 +9,13 @@ from gymnasium.vector.utils import batch_space
 from numpy.typing import NDArray
 
 from mc_nested.arena.action import Action, Cell
-from mc_nested.arena.env import ArenaEnv, highest_observation, rendered, space_up_to
+from mc_nested.arena.env import ArenaEnv, action_space_of, highest_observation, rendered, space_up_to
 from mc_nested.arena.game import Following, Outcome, PlayLog, Resumable
 from mc_nested.arena.rules import STEP, cells_of, grid_of, landing, moved
 from mc_nested.arena.scenario import Scenario
 from mc_nested.arena.scenario_file import load_scenario
 from mc_nested.arena.tally import Tally, tally_of
-from mc_nested.arena.vector import METADATA, NO_ACTION, reset_options, seeds_of, shared_action_space, taken_apart
+from mc_nested.arena.vector import METADATA, NO_ACTION, reset_options, seeds_of, taken_apart
 from mc_nested.arrays import Arrays, Bools, Float64s, Int64s
 from sim.grid_step import Episodes, Layout, Stepped, all_exist, observe_all, step_all
 
@@ -87,7 +87,8 @@ class GridVectorEnv(VectorEnv[Int64s, Int64s, Any]):
         runs = self.num_envs = len(self.scenarios)
         highest = np.max([highest_observation(scenario) for scenario in self.scenarios], axis=0)
         self.single_observation_space = space_up_to(highest)
-        self.single_action_space = shared_action_space(self.scenarios)
+        in_parts = next((scenario for scenario in self.scenarios if scenario.parts), self.scenarios[0])
+        self.single_action_space = action_space_of(in_parts)
         self._tally = tally_of(self.scenarios)
         self.observation_space = batch_space(self.single_observation_space, runs)
         self.action_space = batch_space(self.single_action_space, runs)

@@ -34,13 +34,8 @@ def within_reach(scenario: Scenario) -> Scenario:
     return replace(scenario, design=design, parts=tuple(part for part in parts if part.cells))
 
 
-def can_be_built(scenario: Scenario) -> bool:
-    """Return whether the parts can be built in their order: every cell can still be reached when its turn comes."""
-    return _order_of_parts(scenario) is not None
-
-
-def _order_of_parts(scenario: Scenario) -> list[Cell] | None:
-    """Return the cells in an order in which they can be built; None if there is none."""
+def order_of_parts(scenario: Scenario) -> list[Cell] | None:
+    """Return the cells in an order in which the parts can be built; None if there is none."""
     free = {(x, y) for x in range(scenario.size) for y in range(scenario.size)} - scenario.design
     while free:
         stands: set[Cell] = set()
@@ -114,7 +109,7 @@ def build(scenario: Scenario) -> list[Action]:
 
     ScenarioError if the parts can't be built in their order.
     """
-    order = _order_of_parts(scenario) if scenario.parts else _order(scenario)
+    order = order_of_parts(scenario) if scenario.parts else _order(scenario)
     if order is None:
         raise ScenarioError(f"scenario {scenario.name}: its parts can't be built in their order: change it")
     actions: list[Action] = []

@@ -9,7 +9,7 @@ from typing import Annotated
 from pydantic import Field
 
 from mc_nested.arena.action import LARGEST_SIZE, SMALLEST_SIZE, Cell
-from mc_nested.arena.builder import can_be_built, out_of_reach, within_reach
+from mc_nested.arena.builder import order_of_parts, out_of_reach, within_reach
 from mc_nested.arena.scenario import Material, Part, Scenario
 from mc_nested.errors import ScenarioError
 from mc_nested.toml_file import TomlTable, parse_toml, read_shipped_or_named
@@ -209,7 +209,7 @@ def _check(scenario: Scenario, source: str, *, must_reach: bool) -> None:
     for name in ("choose_every", "regions"):
         if getattr(scenario, name) and not scenario.parts:
             raise ScenarioError(f"{source}: {name}: goes with [[parts]]: draw the design in one part, or in several")
-    if scenario.parts and not can_be_built(buildable):
+    if scenario.parts and order_of_parts(buildable) is None:
         raise ScenarioError(
             f"{source}: parts: what is built first shuts off a cell of a later part: change their order, or the design"
         )

@@ -12,13 +12,12 @@ from typing import Any, Protocol
 
 import numpy as np
 from gymnasium.error import ResetNeeded
-from gymnasium.spaces import Space
 from gymnasium.vector import AutoresetMode, VectorEnv, VectorWrapper
 from gymnasium.vector.utils import batch_space
 from numpy.typing import ArrayLike, NDArray
 
 from mc_nested.arena.action import Cell
-from mc_nested.arena.env import RENDERING, ArenaEnv, action_space_of, blank_observations
+from mc_nested.arena.env import RENDERING, ArenaEnv, blank_observations
 from mc_nested.arena.game import Resumable
 from mc_nested.arena.rules import grid_of
 from mc_nested.arena.scenario import Scenario
@@ -187,11 +186,6 @@ def taken_apart(actions: ArrayLike, runs: int) -> tuple[Int64s, Int64s | None]:
         raise ValueError(f"actions: a whole number for each of the {runs} arenas; with parts a pair, material second")
     whole = found.astype(np.int64, copy=False)
     return (whole[:, 0], whole[:, 1]) if whole.ndim == 2 else (whole, None)
-
-
-def shared_action_space(scenarios: Sequence[Scenario]) -> Space[Any]:
-    """Return the action space of an arena among these: with materials if one of the scenarios has parts."""
-    return action_space_of(next((scenario for scenario in scenarios if scenario.parts), scenarios[0]))
 
 
 def seeds_of(seed: int | list[int | None] | None, runs: int) -> list[int | None]:

@@ -1,6 +1,5 @@
 """Options that several verbs share: the design, where it is built, the profile, and whether a recording is kept."""
 
-from collections.abc import Sequence
 from functools import partial
 from pathlib import Path
 from typing import Annotated
@@ -176,11 +175,6 @@ def print_notes(loaded: Loaded) -> None:
     """Print what a person should know about a scenario, on standard error."""
     for note in loaded.notes:
         typer.echo(note, err=True)
-
-
-def named_scenarios(names: Sequence[str], layer: int | None) -> list[Scenario]:
-    """Return the scenarios of several names and files, each as ``named_scenario``."""
-    return [named_scenario(name, layer) for name in names]
 
 
 def arena_size(size: int | None, scenario: str | None, layer: int | None = None) -> int:

@@ -29,7 +29,7 @@ from mc_nested.cli.options import (
     PresetOption,
     ScenariosOption,
     is_given,
-    named_scenarios,
+    named_scenario,
 )
 from mc_nested.cli.output import JsonOption, Output, QuietOption, prints
 from mc_nested.cli.output_folder import output_folder
@@ -250,7 +250,8 @@ def _options_of(study: Study, values: Mapping[str, Any], given: AbstractSet[str]
     """Return what was asked for, with the designs and the names of lists loaded and taken apart."""
     own = {name: values[name] for name in study.options if name not in ("scenario", "layer")}
     if "scenario" in study.options:
-        own["scenarios"] = named_scenarios(values["scenario"] or paper_scenarios(), values["layer"])
+        names = values["scenario"] or paper_scenarios()
+        own["scenarios"] = [named_scenario(name, values["layer"]) for name in names]
     for name in ("agents", "presets"):
         if name in own:
             own[name] = _listed(own[name])

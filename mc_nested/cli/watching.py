@@ -23,7 +23,7 @@ from mc_nested.live.live_game import LiveGame
 from mc_nested.live.vision.chat_region import blanked_share, without_chat
 from mc_nested.live.vision.game_screen import seen_gui_scale
 from mc_nested.report.arena_picture import ARENA_PX, SMALL_ARENA_PX
-from mc_nested.report.film import FilmedGame, Window, is_gif, open_film
+from mc_nested.report.film import FilmedGame, Window, open_film
 from mc_nested.report.terminal import arena_view
 from mc_nested.view.status import ArenaSeen, Standing
 
@@ -100,7 +100,8 @@ def filmed(game: Game, display: Display | None, scenario: Scenario, video: Path 
         yield game
         return
     window = _window_of(game, display) if display else None
-    arena_px = SMALL_ARENA_PX if is_gif(video) else ARENA_PX
+    # A .gif takes ten times an .mp4's room.
+    arena_px = SMALL_ARENA_PX if video.suffix.lower() == ".gif" else ARENA_PX
     try:
         with open_film(video) as film:
             yield FilmedGame(game, scenario, film, window, arena_px)

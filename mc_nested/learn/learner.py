@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from mc_nested.arrays import Arrays, Bools, Float64s, Int64s, named_for, part_of
 from mc_nested.learn.dqn.engine import Batch, UpdateRule
-from mc_nested.learn.dqn.engines import made_engine
+from mc_nested.learn.dqn.engines import EngineChoice, made_engine
 from mc_nested.learn.dqn.prioritized import Priorities
 from mc_nested.learn.dqn.replay import FIRST_ROOM, Replay, Transitions
 from mc_nested.learn.dqn.self_imitation import BestEpisodes
@@ -40,7 +40,8 @@ class Learner:
         self.states = states
         margin = imitation[0].margin if imitation else 0.0
         rule = UpdateRule(update.batch, update.learning_rate, update.target_period, update.huber_delta, margin)
-        self.engine = made_engine(states, preset.engine_choice, rule, streams)
+        choice = EngineChoice(preset.engine, preset.device, preset.network, tuple(preset.hidden))
+        self.engine = made_engine(states, choice, rule, streams)
         self.parameters = int(self.engine.online.shape[1])  # of one row's network
         self.replay = Replay(states, preset.replay_capacity)
         wanted = preset.prioritized

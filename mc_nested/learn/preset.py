@@ -9,7 +9,7 @@ from pydantic import Field, ValidationError, model_validator
 from mc_nested.arena.action import LARGEST_SIZE, SMALLEST_SIZE
 from mc_nested.errors import PresetError
 from mc_nested.learn.dqn.engine import CNN, MLP, ORDER, REACH
-from mc_nested.learn.dqn.engines import COMPILED, NUMBERS, OBJECTIVES, EngineChoice
+from mc_nested.learn.dqn.engines import COMPILED, NUMBERS, OBJECTIVES
 from mc_nested.learn.dqn.states import Sees
 from mc_nested.toml_file import TomlTable, parse_toml, read_shipped_or_named
 
@@ -236,11 +236,6 @@ class Preset(TomlTable):
     main: MainUpdates | None = None
     imagination: ImaginationRule | None = None
     objectives: ObjectivesRule | None = None
-
-    @property
-    def engine_choice(self) -> EngineChoice:
-        """What computes its networks."""
-        return EngineChoice(self.engine, self.device, self.network, tuple(self.hidden))
 
     def changed(self, **keys: Any) -> "Preset":
         """Return the preset with those keys changed, where they aren't None.

@@ -88,11 +88,6 @@ class Film:
             self._written += count
 
 
-def is_gif(path: Path) -> bool:
-    """Return whether the film is a .gif: one takes ten times an .mp4's room, so its pictures are smaller."""
-    return path.suffix.lower() == ".gif"
-
-
 def check_film(path: Path) -> None:
     """Raise FilmError, one line, if no film can be written there: asked before anything is played."""
     if path.suffix.lower() not in ENCODERS:

@@ -5,7 +5,7 @@ from dataclasses import replace
 from hypothesis import strategies as st
 
 from mc_nested.arena.action import Action
-from mc_nested.arena.builder import can_be_built
+from mc_nested.arena.builder import order_of_parts
 from mc_nested.arena.scenario import Material, Part, Scenario
 
 WOOD, STONE = 0, 1
@@ -44,5 +44,6 @@ def scenarios_with_parts(draw: st.DrawFn, size: int = 6) -> Scenario:
     materials = tuple(Material(name, p, name) for name, p in zip(names, parts[0].worth, strict=True))
     scenario = Scenario("any", frozenset(design), start, size * size, materials, size, parts)
     every = draw(st.none() | st.integers(1, 4))
-    in_turn = scenario if can_be_built(scenario) else replace(scenario, parts=(Part(scenario.design, parts[0].worth),))
+    in_one = replace(scenario, parts=(Part(scenario.design, parts[0].worth),))
+    in_turn = in_one if order_of_parts(scenario) is None else scenario
     return replace(in_turn, choose_every=every, regions=draw(st.booleans()))

@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from mc_nested.arena.scenario_file import draw_grid
-from mc_nested.cli.options import arena_size, named_scenarios
+from mc_nested.cli.options import arena_size, named_scenario
 from mc_nested.errors import ScenarioError, UserError
 from mc_nested.learn.runs.run_folder import RunFolder
 from mc_nested.live.profile.arena import Arena
@@ -85,7 +85,7 @@ def test_one_layer_applies_to_several_files_and_each_files_notes_are_printed(
     hut: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     (tmp_path / "dot.png").write_bytes(picture(HUT[0]))
-    assert [scenario.name for scenario in named_scenarios([str(hut), str(tmp_path / "dot.png")], 0)] == ["hut-0", "dot"]
+    assert [named_scenario(str(file), 0).name for file in (hut, tmp_path / "dot.png")] == ["hut-0", "dot"]
     assert [line.partition(":")[0] for line in capsys.readouterr().err.splitlines()] == [
         "hut.schem, layer 0",
         "dot.png",
