@@ -19,7 +19,7 @@ from calibration.installation.options_txt import OptionsTxt
 from calibration.installation.processes import Process, folders_played, is_same_folder, running_processes
 from mc_nested.errors import DesktopError, NoWindowError
 from mc_nested.live.connection import prepare_keyboard
-from mc_nested.live.desktop import open_desktop, session_kind
+from mc_nested.live.desktop import open_desktop, this_system
 from mc_nested.live.devices import Clipboard, Devices
 from mc_nested.live.input.input_controller import InputController
 from mc_nested.live.model.versions import version_in
@@ -63,7 +63,7 @@ def examine(
     system: System,
     clipboard: Clipboard | None = None,
     open_devices: Callable[[str], AbstractContextManager[Devices]] = open_desktop,
-    session: Callable[[], str] = session_kind,
+    session: Callable[[], str] = lambda: this_system().session_kind(),
     processes: Callable[[], Sequence[Process] | None] | None = None,
     font: Path | None = None,
 ) -> Examination:

@@ -22,7 +22,7 @@ from mc_nested.cli.output import JsonOption, Output, prints
 from mc_nested.cli.recordings import last_recording, recording_path
 from mc_nested.errors import FontError, PictureError, RecordingError
 from mc_nested.live.connection import overlay_of
-from mc_nested.live.desktop import open_clipboard
+from mc_nested.live.desktop import this_system
 from mc_nested.live.model.debug_entries import GROUND_PITCH_DEG, switch_on
 from mc_nested.live.profile.store import load_profile, profile_path
 from mc_nested.live.recording.run_recorder import kept_recordings
@@ -162,4 +162,4 @@ def table_of(checks: Sequence[Check]) -> Table:
 def examined(profile: str, font: Path | None = None) -> Examination:
     """Examine this computer and its game, read with that font, or one that is found."""
     say = partial(typer.echo, err=True)
-    return examine(profile, say=say, system=System.here(), clipboard=open_clipboard(), font=font)
+    return examine(profile, say=say, system=System.here(), clipboard=this_system().open_clipboard(), font=font)

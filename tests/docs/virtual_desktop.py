@@ -96,8 +96,8 @@ def install(client: VirtualClient) -> None:
         yield
 
     desktop.open_desktop = open_desktop
-    desktop.open_clipboard = lambda: client.clipboard
-    desktop.session_kind = lambda: "virtual"
+    system = desktop.this_system()
+    vars(system).update(open_clipboard=lambda: client.clipboard, session_kind=lambda: "virtual")
     panic = types.ModuleType("mc_nested.live.desktop.panic")
     vars(panic).update(open_panic_switch=open_nothing, open_takeover_key=open_nothing)
     sys.modules[panic.__name__] = panic

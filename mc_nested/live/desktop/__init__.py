@@ -38,16 +38,6 @@ def open_desktop(title: str) -> Iterator[Devices]:
             yield Devices(display, keyboard, pointer, MonotonicClock(), clipboard, display.area, monitors)
 
 
-def open_clipboard() -> Clipboard:
-    """Return this desktop's clipboard, which is not read yet."""
-    return this_system().open_clipboard()
-
-
-def session_kind() -> str:
-    """Return what kind of session this is, in words, or raise, as ``DesktopSystem.session_kind``."""
-    return this_system().session_kind()
-
-
 class DesktopSystem(Protocol):
     """The functions that win32.py, quartz.py and x11.py each offer."""
 

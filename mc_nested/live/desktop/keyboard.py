@@ -5,7 +5,7 @@ A game to 1.12 takes a key by the symbol that it makes: then it is pressed where
 
 import sys
 from collections.abc import Collection, Iterator
-from contextlib import AbstractContextManager, contextmanager, suppress
+from contextlib import AbstractContextManager, contextmanager, nullcontext, suppress
 from typing import Protocol
 
 from mc_nested.errors import DesktopError
@@ -92,11 +92,17 @@ def open_keyboard() -> Iterator[DesktopKeyboard]:
 
 def _open_sender() -> AbstractContextManager[KeySender]:
     if sys.platform == "win32":
-        from mc_nested.live.desktop.win32_keyboard import open_sender
-    elif sys.platform == "darwin":
-        from mc_nested.live.desktop.quartz_keyboard import open_sender
-    else:
-        from mc_nested.live.desktop.x11_keyboard import open_sender
+        from mc_nested.live.desktop.win32_keyboard import Win32KeySender
+
+        return nullcontext(Win32KeySender())
+    if sys.platform == "darwin":
+        from pynput.keyboard import Controller
+
+        from mc_nested.live.desktop.quartz_keyboard import QuartzKeySender
+
+        return nullcontext(QuartzKeySender(Controller()))
+    from mc_nested.live.desktop.x11_keyboard import open_sender
+
     return open_sender()
 
 

@@ -1,7 +1,5 @@
 """Keys and text on macOS, through pynput: keys by the virtual keycode of their place, text by the keyboard's layout."""
 
-from collections.abc import Iterator
-from contextlib import contextmanager
 from typing import Any
 
 from pynput.keyboard import Controller, Key, KeyCode
@@ -45,9 +43,3 @@ class QuartzKeySender:
             raise DesktopError(
                 f"{character!r} can't be typed with this keyboard layout: switch to a Latin one"
             ) from error
-
-
-@contextmanager
-def open_sender() -> Iterator[QuartzKeySender]:
-    """Yield the keys of this desktop."""
-    yield QuartzKeySender(Controller())

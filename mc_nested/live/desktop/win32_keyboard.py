@@ -8,8 +8,6 @@ character's low byte, and never sees that key released (FACTS: Input and windows
 
 import ctypes
 import sys
-from collections.abc import Iterator
-from contextlib import contextmanager
 from ctypes import wintypes
 
 from mc_nested.errors import DesktopError
@@ -165,12 +163,6 @@ def _is_caps_lock_on() -> bool:
     # A thread learns of keys pressed elsewhere when it looks for messages.
     _user32.PeekMessageW(ctypes.byref(wintypes.MSG()), None, 0, 0, _LEAVES_MESSAGES)
     return bool(_user32.GetKeyState(_VK_CAPS_LOCK) & 1)
-
-
-@contextmanager
-def open_sender() -> Iterator[Win32KeySender]:
-    """Yield the keys of this desktop."""
-    yield Win32KeySender()
 
 
 def _send(*events: _Event) -> None:

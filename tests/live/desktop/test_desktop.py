@@ -13,7 +13,7 @@ import warnings
 import pytest
 
 from mc_nested.errors import DesktopError
-from mc_nested.live.desktop import open_camera, open_desktop, session_kind
+from mc_nested.live.desktop import open_camera, open_desktop, this_system
 from mc_nested.live.devices import DesktopArea
 from mc_nested.live.model.versions import GAME_TITLE
 from tests.live.desktop.real_windows.moving_window import MovingWindow
@@ -53,7 +53,7 @@ if sys.platform.startswith("linux"):
             warnings.simplefilter("ignore", ResourceWarning)
             text = error_of_opening()
             with pytest.raises(DesktopError, match=message):
-                session_kind()
+                this_system().session_kind()
             gc.collect()
         assert re.match(message, text)
         assert "\n" not in text

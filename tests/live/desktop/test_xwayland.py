@@ -124,7 +124,7 @@ def test_the_devices_work_on_an_xwayland_in_one_window_as_on_any_x_server(rootfu
 
 @pytest.mark.window
 def test_the_session_kind_names_an_xwayland_in_one_window(rootful: dict[str, str]) -> None:
-    code = "from mc_nested.live.desktop import session_kind; print(session_kind())"
+    code = "from mc_nested.live.desktop import this_system; print(this_system().session_kind())"
     done = subprocess.run([sys.executable, "-c", code], env=rootful, capture_output=True, text=True, check=True)
     assert done.stdout == f"Xwayland in one window, display {rootful['DISPLAY']}; {PANIC}\n"
 

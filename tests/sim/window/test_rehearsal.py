@@ -184,7 +184,9 @@ def test_the_mouse_turns_the_view_in_the_world_and_moves_freely_in_a_menu(played
 
 def test_f3_and_c_copies_to_the_real_clipboard(played: Played, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("DISPLAY", played.rehearsal.env["DISPLAY"])
-    from mc_nested.live.desktop import open_clipboard
+    from mc_nested.live.desktop import this_system
+
+    open_clipboard = this_system().open_clipboard
 
     played.key(F3, is_down=True)
     played.tap(C)

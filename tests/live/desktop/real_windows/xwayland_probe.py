@@ -20,7 +20,7 @@ from typing import Any
 from Xlib.display import Display
 
 from mc_nested.errors import DesktopError
-from mc_nested.live.desktop import open_desktop, session_kind
+from mc_nested.live.desktop import open_desktop, this_system
 from mc_nested.live.desktop.panic import open_panic_switch
 from mc_nested.live.devices import Devices, Region
 from scripts.programs import XDOTOOL
@@ -162,7 +162,7 @@ def corners(desktop: Devices) -> list[list[int]]:
 def camera_report(window: Window, desktop: Devices) -> dict[str, Any]:
     width, height = desktop.display.size()
     report: dict[str, Any] = {
-        "session": session_kind(),
+        "session": this_system().session_kind(),
         "shape": desktop.display.grab().shape,
         "corners": corners(desktop),
         "seam": desktop.display.grab(Region(width // 2 - 1, 10, 2, 1)).tolist(),
