@@ -9,7 +9,7 @@ from mc_nested.live.devices import Frame
 from mc_nested.live.model.reading import Block, Reading, Target
 from mc_nested.live.vision.font import Font
 from mc_nested.live.vision.overlay import SCALES
-from sim.client.drawing.f3_layers import paint
+from scripts.benches.painted_screen import paint
 from sim.client.drawing.painter import WORLDS, random_world
 from sim.client.game.debug_entries import TUTORIAL, known_entries, shown_entries
 from sim.client.game.edition import Edition, Layout

@@ -16,7 +16,7 @@ from mc_nested.live.profile.folder import profile_folder
 from mc_nested.live.profile.store import save_profile
 from mc_nested.live.profile.tables import Profile
 from mc_nested.live.vision.font import font_of
-from sim.client.drawing.f3_layers import paint
+from scripts.benches.painted_screen import paint
 from sim.client.drawing.letters import drawn_atlas
 from sim.client.game.f3_screen import F3Screen
 from tests.cli.running import run, verbs_of

@@ -11,7 +11,7 @@ import pytest
 
 from mc_nested.live.model.reading import Target
 from mc_nested.live.vision.font import font_of
-from sim.client.drawing.f3_layers import paint
+from scripts.benches.painted_screen import paint
 from sim.client.drawing.letters import drawn_atlas
 from sim.client.game.f3_screen import F3Screen
 from tests.calibration.contexts import font_file_in

@@ -7,9 +7,7 @@ the boxes in game/entry_boxes.py (FACTS: The F3 debug screen).
 from functools import lru_cache
 from typing import NamedTuple
 
-from mc_nested.live.devices import Frame
-from mc_nested.live.vision.font import Font
-from sim.client.drawing.layers import Group, Layer, draw_all
+from sim.client.drawing.layers import Group, Layer
 from sim.client.drawing.letters import Letters
 from sim.client.game.entry_boxes import PITCH, PlacedBox, box_columns
 from sim.client.game.f3_screen import F3Screen, Part, TextLine
@@ -99,19 +97,6 @@ _VALUES: dict[str, Colour] = {"true": (85, 255, 85), "false": (255, 85, 85)}
 
 _KEPT = 512
 """Parts whose layers are cached: a screen has about ten, and the next one shares most of them."""
-
-
-def paint(world: Frame, screen: F3Screen, font: Font) -> Frame:
-    """Return the world (height, width, 3), blue green red, with the debug screen over it; ``world`` is not changed.
-
-    Text that doesn't fit is cut at the window's edge, and the right column is drawn over the left one, as in the game.
-    """
-    frame: Frame = world.copy()
-    height, width = world.shape[:2]
-    gui = (-(-width // screen.gui_scale), -(-height // screen.gui_scale))
-    layers = F3Layers(Letters(font, screen.gui_scale), gui).of(screen)
-    draw_all(frame, layers, (0, 0, width, height))
-    return frame
 
 
 class F3Layers:

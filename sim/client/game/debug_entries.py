@@ -111,19 +111,8 @@ def shown_entries(
     )
 
 
-def parse_profile(text: str | None, edition: Edition) -> DebugEntries:
-    """Return the entries that a debug-profile.json stands for; ``text`` is None if there is no such file.
-
-    As in the game, one that can't be read counts as the default, and ``custom`` replaces everything.
-    """
-    try:
-        return GAME_DEFAULT if text is None else read_profile(text, edition)
-    except UserError:
-        return GAME_DEFAULT
-
-
 def read_profile(text: str, edition: Edition) -> DebugEntries:
-    """Return the entries that a debug-profile.json stands for.
+    """Return the entries that a debug-profile.json stands for: ``custom`` replaces everything.
 
     UserError if the game can't read it, and would replace it.
     """

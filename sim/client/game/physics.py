@@ -64,19 +64,6 @@ _STEP_DOWN, _BACK_OFF = 0.6, 0.05
 (FACTS: Sneaking)."""
 
 
-def displacement(ticks: int, gait: Gait, ground: Ground = STONE) -> float:
-    """Return the blocks covered by holding forward for so many ticks from rest, then coasting to a stop."""
-    push = INPUT * (SNEAKING if gait == "sneak" else 1.0) * ground.under(gait).acceleration
-    covered = velocity = 0.0
-    tick = 0
-    while tick < ticks or velocity >= STANDSTILL:
-        velocity = (velocity if velocity >= STANDSTILL else 0.0) + (push if tick < ticks else 0.0)
-        covered += velocity
-        velocity *= ground.inertia
-        tick += 1
-    return covered
-
-
 def wish(forward: int, left: int, gait: Gait, yaw: float) -> tuple[float, float]:
     """Return the input of held keys, east and south, of length 1 at most. Each key is 1, 0 or -1, yaw in degrees."""
     strength = INPUT * (SNEAKING if gait == "sneak" else 1.0)

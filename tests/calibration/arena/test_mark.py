@@ -26,8 +26,8 @@ from mc_nested.live.profile.arena import Arena
 from mc_nested.live.profile.store import load_profile
 from mc_nested.live.profile.tables import Profile
 from mc_nested.live.vision.font import load_font
+from scripts.benches.painted_screen import paint
 from sim.client.desktop.window import VirtualClipboard
-from sim.client.drawing.f3_layers import paint
 from sim.client.game.f3_screen import F3Screen
 from tests.calibration.contexts import NoKeys
 

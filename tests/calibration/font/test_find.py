@@ -17,8 +17,8 @@ from mc_nested.live.devices import Frame
 from mc_nested.live.profile.store import load_profile
 from mc_nested.live.profile.tables import Profile
 from mc_nested.live.vision.font import ENTRY, Font, decoded
+from scripts.benches.painted_screen import paint
 from sim.client.client import VirtualClient
-from sim.client.drawing.f3_layers import paint
 from sim.client.game.f3_screen import F3Screen
 from tests.calibration.contexts import SPANISH, context_of, context_over, font_file_in, started
 from tests.sim.client.playing import FONT

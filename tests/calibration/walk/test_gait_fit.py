@@ -9,6 +9,7 @@ from calibration.walk.gait_fit import FEWEST, GaitModel, HoldTrace, fit_gait, ma
 from mc_nested.errors import NotConfirmedError
 from mc_nested.live.model.kinematics import INERTIA, PUSH, SNEAKING, TICK_S, displacement
 from sim.client.game import physics
+from tests.sim.client.walked import displacement as walked
 
 PLAIN = GaitModel(PUSH, INERTIA)
 
@@ -42,7 +43,7 @@ def test_path_ends_at_the_displacement_that_the_live_path_expects(held: int) -> 
     assert PLAIN.covered(held) == pytest.approx(displacement(held))
     ice = physics.Ground(slipperiness=0.98, speed=1.4)
     model = GaitModel(physics.INPUT * ice.acceleration, ice.inertia)
-    assert model.covered(held) == pytest.approx(physics.displacement(held, "walk", ice))
+    assert model.covered(held) == pytest.approx(walked(held, "walk", ice))
 
 
 @pytest.mark.parametrize("seed", range(2))
@@ -52,7 +53,7 @@ def test_fit_finds_the_gait_model_of_other_floors_and_speeds(slipperiness: float
     model = fit_gait(holds(GaitModel(physics.INPUT * ground.acceleration, ground.inertia), seed))
     assert model.inertia == pytest.approx(ground.inertia, abs=0.003)
     for held in range(1, 13):
-        assert model.covered(held) == pytest.approx(physics.displacement(held, "walk", ground), abs=0.005)
+        assert model.covered(held) == pytest.approx(walked(held, "walk", ground), abs=0.005)
 
 
 def test_with_a_known_inertia_few_long_holds_give_the_push() -> None:

@@ -10,8 +10,8 @@ from mc_nested.live.recording.text_pixels import OUTSIDE, TextPixels, paint, rea
 from mc_nested.live.vision.debug_screen import read_debug_screen
 from mc_nested.live.vision.game_screen import WindowScreen
 from mc_nested.live.vision.screen_reader import ScreenReader
+from scripts.benches import painted_screen
 from sim.client.client import VirtualClient
-from sim.client.drawing import f3_layers
 from sim.client.game.edition import Layout
 from sim.client.game.f3_screen import F3Screen
 from sim.client.game.f3_text import LAYOUTS
@@ -93,7 +93,7 @@ def test_text_pixels_of_every_layout_give_the_same_reading(layout: Layout) -> No
     target = Target((-9, 63, 12_345), name)
     drawn = F3Screen(layout, 2, (-8.5, 64.0, 12_345.678), 0.0, 65.0, target, (("snowy", "true"),))
     drawn = dataclasses.replace(drawn, entries=("looking_at_block_state", "player_position"), has_f3=False)
-    reader = ScreenReader(Still(f3_layers.paint(np.full((480, 860, 3), 120, np.uint8), drawn, FONT)), FONT)
+    reader = ScreenReader(Still(painted_screen.paint(np.full((480, 860, 3), 120, np.uint8), drawn, FONT)), FONT)
     for _ in range(2):  # the whole window, then the rows where its lines stood
         reading = reader.read()
         assert reading.target == target

@@ -17,7 +17,7 @@ from mc_nested.live.vision.debug_boxes import (
     line_boxes,
 )
 from mc_nested.live.vision.layout import BOX_ALPHA, BOX_GREY, TITLE_GREY
-from sim.client.drawing.f3_layers import paint
+from scripts.benches.painted_screen import paint
 from sim.client.drawing.painter import WORLDS, random_world
 from sim.client.game.f3_screen import F3Screen
 from tests.sim.client.f3_lines import left_lines, right_lines

@@ -19,7 +19,7 @@ from mc_nested.live.vision.overlay import find_debug_screen, find_overlay
 from mc_nested.live.vision.screen_lines import ScreenLines
 from mc_nested.live.vision.text_lines import positions_of
 from scripts.benches.f3_cases import expected, frames, random_screen
-from sim.client.drawing.f3_layers import paint
+from scripts.benches.painted_screen import paint
 from sim.client.drawing.letters import drawn_atlas
 from sim.client.drawing.painter import WORLDS, random_world
 from sim.client.game.edition import Layout

@@ -11,7 +11,7 @@ from mc_nested.live.vision.fact_lines import fact_from
 from mc_nested.live.vision.glyph_grid import GlyphGrid
 from mc_nested.live.vision.layout import BOXES, Overlay
 from mc_nested.live.vision.text_lines import UNKNOWN, Line, positions_of
-from sim.client.drawing.f3_layers import paint
+from scripts.benches.painted_screen import paint
 from sim.client.game.f3_screen import F3Screen
 from tests.sim.client.playing import FONT
 

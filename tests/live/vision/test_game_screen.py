@@ -7,8 +7,8 @@ from mc_nested.live.devices import Frame
 from mc_nested.live.vision.font import font_of
 from mc_nested.live.vision.game_screen import WORLDS_TITLE, WindowScreen
 from mc_nested.live.vision.layout import VANILLA, Overlay
+from scripts.benches.painted_screen import paint
 from scripts.benches.reader import OneFrameDisplay
-from sim.client.drawing.f3_layers import paint
 from sim.client.drawing.letters import drawn_atlas
 from sim.client.game.f3_screen import F3Screen
 from tests.live.vision.menu_painter import GREY, MenuPainter

@@ -9,7 +9,7 @@ from mc_nested.live.vision.font import font_of
 from mc_nested.live.vision.glyph_grid import GlyphGrid
 from mc_nested.live.vision.layout import BOXES, LAYOUTS, LINE_PITCH, STANDIN, VANILLA, Overlay, ScreenLayout
 from mc_nested.live.vision.text_lines import positions_of
-from sim.client.drawing.f3_layers import paint
+from scripts.benches.painted_screen import paint
 from sim.client.drawing.letters import drawn_atlas
 from sim.client.game.edition import Layout
 from sim.client.game.f3_screen import F3Screen

@@ -12,7 +12,7 @@ from mc_nested.live.vision.glyph_grid import GlyphGrid
 from mc_nested.live.vision.layout import BOXES, STANDIN, VANILLA, Overlay, Scales
 from mc_nested.live.vision.overlay import find_debug_screen, find_overlay
 from mc_nested.live.vision.text_lines import positions_of
-from sim.client.drawing.f3_layers import paint
+from scripts.benches.painted_screen import paint
 from sim.client.drawing.letters import drawn_atlas
 from sim.client.drawing.painter import WORLDS, Painter, random_world
 from sim.client.game.edition import Edition, Layout

@@ -20,7 +20,7 @@ from mc_nested.live.vision.font import font_of
 from mc_nested.live.vision.layout import VANILLA, Overlay
 from mc_nested.live.vision.overlay import find_debug_screen
 from mc_nested.live.vision.read_pictures import PictureReading, read_picture, shows_more_than_window
-from sim.client.drawing.f3_layers import paint
+from scripts.benches.painted_screen import paint
 from sim.client.drawing.letters import drawn_atlas
 from sim.client.game.edition import Layout
 from sim.client.game.f3_screen import F3Screen

@@ -10,7 +10,7 @@ from mc_nested.live.vision.font import font_of
 from mc_nested.live.vision.overlay import FoundScreen, find_debug_screen
 from mc_nested.live.vision.screen_lines import ScreenLines, Unreadable, check_whole, matched, only_line, shown
 from mc_nested.live.vision.text_lines import UNKNOWN, positions_of
-from sim.client.drawing.f3_layers import paint
+from scripts.benches.painted_screen import paint
 from sim.client.drawing.letters import drawn_atlas
 from sim.client.game.edition import Layout
 from sim.client.game.f3_screen import F3Screen

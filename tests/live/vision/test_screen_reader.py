@@ -18,7 +18,7 @@ from mc_nested.live.vision.overlay import find_debug_screen
 from mc_nested.live.vision.screen_lines import ScreenLines
 from mc_nested.live.vision.screen_reader import ScreenReader, shows_no_block, sign_of_no_block
 from scripts.benches.f3_cases import expected, random_screen
-from sim.client.drawing.f3_layers import paint
+from scripts.benches.painted_screen import paint
 from sim.client.drawing.painter import WORLDS, random_world
 from sim.client.game.edition import Layout
 from sim.client.game.f3_screen import F3Screen

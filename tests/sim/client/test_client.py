@@ -11,12 +11,12 @@ from mc_nested.live.devices import Clipboard, Clock, Display, Keyboard, Pointer,
 from mc_nested.live.model.reading import Reading
 from sim.client.client import VirtualClient
 from sim.client.game.options import GameOptions
-from sim.client.game.physics import displacement
 from sim.client.game.realm import Stack
 from sim.client.game.screens import MenuState, menu
 from sim.client.settings import gui_scale
 from tests.sim.client.f3_lines import left_lines, right_lines
 from tests.sim.client.playing import TAP_S, arena_of, click, command, read, tap
+from tests.sim.client.walked import displacement
 
 
 def screen_of(client: VirtualClient) -> str:

@@ -8,11 +8,11 @@ from sim.client.desktop.clock import Frames, VirtualClock
 from sim.client.desktop.window import VirtualWindow
 from sim.client.game.edition import Edition
 from sim.client.game.game import VirtualGame
-from sim.client.game.physics import displacement
 from sim.client.game.realm import Player, Realm, Stack
 from sim.client.game.world import VirtualWorld
 from sim.client.mishaps import DRAWN, KINDS, SIZES, Kind, Mishap, Mishaps
 from tests.sim.client.playing import read, tap
+from tests.sim.client.walked import displacement
 
 
 def struck(kind: Kind) -> VirtualClient:

@@ -10,7 +10,7 @@ import pytest
 
 from mc_nested.live.devices import Frame
 from mc_nested.live.model.reading import Target
-from sim.client.drawing.f3_layers import paint
+from scripts.benches.painted_screen import paint
 from sim.client.drawing.letters import Letters
 from sim.client.game.edition import Layout
 from sim.client.game.f3_screen import F3Screen

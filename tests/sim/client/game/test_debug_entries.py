@@ -6,17 +6,30 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from mc_nested.errors import UserError
 from sim.client.game.debug_entries import (
     GAME_DEFAULT,
     PERFORMANCE,
     TUTORIAL,
+    DebugEntries,
     known_entries,
-    parse_profile,
+    read_profile,
     shown_entries,
 )
 from sim.client.game.edition import Edition
 
 OLD, MIDDLE, NEW = Edition("1.21.9"), Edition("1.21.11"), Edition("26.1")
+
+
+def parse_profile(text: str | None, edition: Edition) -> DebugEntries:
+    """Return the entries that a debug-profile.json stands for; ``text`` is None if there is no such file.
+
+    As in the game, one that can't be read counts as the default, and ``custom`` replaces everything.
+    """
+    try:
+        return GAME_DEFAULT if text is None else read_profile(text, edition)
+    except UserError:
+        return GAME_DEFAULT
 
 
 def custom(status: str, version: int | None = None, entry: str = "minecraft:fps") -> str:

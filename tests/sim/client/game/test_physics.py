@@ -17,7 +17,6 @@ from sim.client.game.physics import (
     Gaits,
     Ground,
     Vector,
-    displacement,
     is_free,
     kept_apart,
     overlaps,
@@ -27,6 +26,7 @@ from sim.client.game.physics import (
 )
 from sim.client.game.realm import Player, Realm, Stack
 from sim.client.game.world import VirtualWorld
+from tests.sim.client.walked import displacement
 
 INERTIA = 0.546
 PUSH = 0.98 * 0.1 * 0.1627714 / INERTIA**3
