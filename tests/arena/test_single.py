@@ -1,5 +1,7 @@
 """The single agent's ten actions, step by step (paper, appendix; docs/explanation/task.md)."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from hypothesis import given
@@ -207,7 +209,7 @@ def test_a_restored_snapshot_continues_every_arena_identically() -> None:
 def singles(builders: int, runs: int = 1) -> SingleAgentVectorEnv:
     """Return single agents that share an arena in each run."""
     team = team_of(LINE, builders)
-    each = [team.scenario_of(number) for _ in range(runs) for number in range(builders)]
+    each = [replace(team.scenario, start=team.starts[number]) for _ in range(runs) for number in range(builders)]
     env = SingleAgentVectorEnv(TeamVectorEnv([TeamGrid(team) for _ in range(runs)], team), each, builders)
     env.reset()
     return env

@@ -7,7 +7,7 @@ once none is left, an action with +D only moves. None instead of an action does 
 """
 
 from collections.abc import Collection, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Protocol
 
 from mc_nested.arena.action import Action, Cell
@@ -48,10 +48,6 @@ class Team:
     def builders(self) -> int:
         """How many builders there are."""
         return len(self.starts)
-
-    def scenario_of(self, builder: int) -> Scenario:
-        """Return the scenario with that builder's start cell."""
-        return replace(self.scenario, start=self.starts[builder])
 
 
 class TeamGame(Protocol):

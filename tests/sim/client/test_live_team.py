@@ -17,8 +17,8 @@ from mc_nested.learn.builders import Builders
 from mc_nested.learn.evaluation import play_greedily
 from mc_nested.learn.preset import load_preset
 from mc_nested.live.live_game import LiveGame
-from mc_nested.live.live_team import LiveTeam
 from mc_nested.live.profile.tables import GameVersion, Profile
+from scripts.examples.live_team import LiveTeam, scenario_of
 from sim.client.client import VirtualClient
 from sim.team_grid import TeamGrid
 from tests.arena.cooperative.team_game_contract import Ticks, Truth, check_team_game
@@ -40,7 +40,7 @@ def played(team: Team) -> Iterator[tuple[LiveTeam, list[VirtualClient]]]:
 
 def game_of(team: Team, builder: int, client: VirtualClient) -> LiveGame:
     profile = Profile(game=GameVersion(version=client.settings.version), arena=arena_of(client))
-    return LiveGame(team.scenario_of(builder), profile, connection_to(client, is_server_allowed=True))
+    return LiveGame(scenario_of(team, builder), profile, connection_to(client, is_server_allowed=True))
 
 
 def truth_of(clients: list[VirtualClient]) -> Truth:

@@ -1,12 +1,19 @@
 """LiveTeam: the TeamGame that is played in k windows, each another player in the same world."""
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 from mc_nested.arena.action import Action, Cell
 from mc_nested.arena.cooperative.team import Team, action_with, others_of
 from mc_nested.arena.game import Outcome
+from mc_nested.arena.scenario import Scenario
 from mc_nested.errors import LiveError
 from mc_nested.live.live_game import LiveGame
+
+
+def scenario_of(team: Team, builder: int) -> Scenario:
+    """Return the team's scenario with that builder's start cell."""
+    return replace(team.scenario, start=team.starts[builder])
 
 
 class LiveTeam:
@@ -17,8 +24,8 @@ class LiveTeam:
 
     Args:
         team: who builds what.
-        games: a game for each builder, by number, made for ``team.scenario_of(number)``; all in one world, their
-            profiles marking the same arena.
+        games: a game for each builder, by number, made for ``scenario_of(team, number)``; all in one world,
+            their profiles marking the same arena.
 
     Raises:
         LiveError: there isn't a game for each builder.
