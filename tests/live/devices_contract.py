@@ -65,7 +65,7 @@ def answers(devices: Devices, truth: Truth) -> dict[str, Any]:
     tap("enter")
     found["sent"] = [truth()["screen"], truth()["feet"][0], truth()["yaw"], truth()["pitch"]]
     tap("t")
-    keyboard.type("/give @s stone 64")
+    keyboard.type("/item replace entity @s hotbar.0 with stone 64")
     wait()
     tap("enter")
     found["in hand"] = truth()["block_in_hand"]

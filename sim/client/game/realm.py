@@ -53,17 +53,6 @@ class Player:
         if self.mode == "survival" and stack is not None:
             self.hotbar[self.slot] = Stack(stack.block, stack.count - 1) if stack.count > 1 else None
 
-    def take(self, stack: Stack) -> bool:
-        """Add blocks to the hotbar, to the same kind or in the first free slot; whether they fit."""
-        for slot, there in enumerate(self.hotbar):
-            if there is not None and there.block == stack.block and there.count + stack.count <= 64:
-                self.hotbar[slot] = Stack(stack.block, there.count + stack.count)
-                return True
-        if None not in self.hotbar:
-            return False
-        self.hotbar[self.hotbar.index(None)] = stack
-        return True
-
 
 @dataclass
 class Realm:

@@ -35,15 +35,6 @@ def fill(realm: Realm, words: list[str]) -> str:
     return f"Successfully filled {changed} {'block(s)' if edition.since(1, 20) else 'blocks'}"
 
 
-def setblock(realm: Realm, words: list[str]) -> str:
-    """Do ``/setblock x y z block``."""
-    x, y, z = block = block_position(realm, words[:3])
-    new = realm.edition.since(1, 13)
-    if not realm.world.put(block, block_name(realm, words[3])):
-        raise CommandRefusedError("Could not set the block" if new else "The block couldn't be placed")
-    return f"Changed the block at {x}, {y}, {z}" if new else "Block placed"
-
-
 def clone(realm: Realm, words: list[str]) -> str:
     """Do ``/clone x1 y1 z1 x2 y2 z2 x y z``: copy a region; x y z is the lowest corner of the copy."""
     low, high, other = _regions(realm, words)

@@ -2,7 +2,7 @@
 
 import re
 
-from sim.client.game.commands.words import CommandRefusedError, after_player, block_name, coordinate, display_name
+from sim.client.game.commands.words import after_player, block_name, coordinate, display_name
 from sim.client.game.realm import SLOTS, Mode, Realm, Stack
 from sim.client.game.world import AIR
 
@@ -53,25 +53,6 @@ def gamemode(realm: Realm, words: list[str]) -> str:
     return f"Set own game mode to {mode.capitalize()} Mode"
 
 
-def give(realm: Realm, words: list[str]) -> str:
-    """Do ``/give player block [count]``."""
-    block, *rest = after_player(realm, words)
-    stack = Stack(block_name(realm, block), int(rest[0]) if rest else 1)
-    realm.player.take(stack)
-    return f"Gave {stack.count} [{display_name(stack.block)}] to {realm.player_name}"
-
-
-def clear(realm: Realm, words: list[str]) -> str:
-    """Do ``/clear [player]``."""
-    if words:
-        after_player(realm, words)
-    count = sum(stack.count for stack in realm.player.hotbar if stack)
-    if not count:
-        raise CommandRefusedError(f"No items were found on player {realm.player_name}")
-    realm.player.hotbar[:] = [None] * SLOTS
-    return f"Removed {count} items from player {realm.player_name}"
-
-
 def item(realm: Realm, words: list[str]) -> str:
     """Do, from 1.17 on, ``/item replace entity @s hotbar.0 with minecraft:stone 64``."""
     if words[:2] != ["replace", "entity"] or words[4] != "with":
@@ -89,22 +70,6 @@ def replaceitem(realm: Realm, words: list[str]) -> str:
         raise ValueError(words[0])
     after_player(realm, words[1:2])
     return _replace(realm, words[2], words[3:], "hotbar." if realm.edition.since(1, 13) else "slot.hotbar.")
-
-
-def effect(realm: Realm, words: list[str]) -> str:
-    """Do ``/effect give player effect``, before 1.13 ``/effect player effect``. It changes nothing here."""
-    if realm.edition.since(1, 13) and words[0] not in ("give", "clear"):
-        raise ValueError(words[0])
-    if words[0] == "clear":
-        return f"Removed every effect from {realm.player_name}"
-    return f"Applied effect {words[2] if words[0] == 'give' else words[1]} to {realm.player_name}"
-
-
-def kill(realm: Realm, words: list[str]) -> str:
-    """Do ``/kill @e[...]``: there are no entities."""
-    if words and words[0].startswith("@e"):
-        raise CommandRefusedError("No entity was found")
-    raise ValueError(realm.player_name)
 
 
 def gamerule(realm: Realm, words: list[str]) -> str:

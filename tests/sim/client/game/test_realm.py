@@ -40,21 +40,6 @@ def test_placing_uses_up_blocks_in_survival_and_not_in_creative() -> None:
     assert player.hotbar[0] is None
 
 
-def test_blocks_join_their_kind_up_to_64_then_take_the_first_free_slot() -> None:
-    player = realm().player
-    player.hotbar[:2] = [Stack("dirt", 1), Stack("stone", 60)]
-    assert player.take(Stack("stone", 4))
-    assert player.take(Stack("stone", 1))
-    assert player.hotbar[:4] == [Stack("dirt", 1), Stack("stone", 64), Stack("stone", 1), None]
-
-
-def test_a_full_hotbar_takes_no_block_of_another_kind() -> None:
-    player = realm().player
-    player.hotbar[:] = [Stack("dirt", 64)] * 9
-    assert not player.take(Stack("stone", 1))
-    assert player.hotbar == [Stack("dirt", 64)] * 9
-
-
 @pytest.mark.parametrize(("version", "name"), [("1.21.10", "keepInventory"), ("1.21.11", "keep_inventory")])
 def test_a_rule_has_the_name_of_its_version(version: str, name: str) -> None:
     world = realm(version)

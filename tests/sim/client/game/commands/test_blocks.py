@@ -39,19 +39,6 @@ def test_a_fill_of_32768_blocks_is_the_largest() -> None:
 
 
 @pytest.mark.parametrize(
-    ("version", "answer"), [("1.12.2", "The block couldn't be placed"), ("1.13", "Could not set the block")]
-)
-def test_setting_a_block_that_is_there_already_is_refused(version: str, answer: str) -> None:
-    assert answer_to("/setblock 0 63 0 dirt", realm(version)) == (answer, True)
-
-
-def test_a_block_is_put_relative_to_the_player() -> None:
-    played = realm()
-    assert answer_to("/setblock ~1 ~ ~ stone", played) == ("Changed the block at 9, 64, 8", False)
-    assert played.world.built() == {(9, 64, 8): "stone"}
-
-
-@pytest.mark.parametrize(
     ("version", "answer"), [("1.12.2", "8 blocks cloned"), ("1.20.1", "Successfully cloned 8 blocks")]
 )
 def test_a_region_is_copied_to_the_named_lowest_corner(version: str, answer: str) -> None:

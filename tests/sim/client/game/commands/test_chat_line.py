@@ -42,7 +42,7 @@ def test_every_command_of_a_reset_succeeds_in_every_version(version: str) -> Non
         ("/tp @s 1.5 70 -3.25", (1.5, 70.0, -3.25)),
         ("/tp 1 70 -3", (1.5, 70.0, -2.5)),
         ("/tp @s ~ ~2 ~-1.5", (8.5, 66.0, 7.0)),
-        ("/teleport Player 0 64 0", (0.5, 64.0, 0.5)),
+        ("/tp Player 0 64 0", (0.5, 64.0, 0.5)),
     ],
 )
 def test_a_teleport_to_whole_numbers_leads_to_the_blocks_middle(line: str, feet: tuple[float, ...]) -> None:
@@ -64,9 +64,6 @@ def test_a_teleport_to_whole_numbers_leads_to_the_blocks_middle(line: str, feet:
             "/fill 0 64 0 63 95 31 stone",
             "Too many blocks in the specified area (maximum 32768, specified 65536)",
         ),
-        ("1.12.2", "/setblock 0 64 0 stone", "Block placed"),
-        ("1.20.1", "/setblock 0 64 0 stone", "Changed the block at 0, 64, 0"),
-        ("1.20.1", "/setblock 0 64 0 air", "Could not set the block"),
         ("1.20.1", "/gamerule doDaylightCycle false", "Gamerule doDaylightCycle is now set to: false"),
         ("1.21.11", "/gamerule advance_time false", "Gamerule advance_time is now set to: false"),
         ("1.12.2", "/gamerule doDaylightCycle false", "Game rule doDaylightCycle has been updated to false"),
@@ -75,9 +72,6 @@ def test_a_teleport_to_whole_numbers_leads_to_the_blocks_middle(line: str, feet:
         ("1.20.1", "/time set 6000", "Set the time to 6000"),
         ("1.12.2", "/weather clear", "Changing to clear weather"),
         ("1.20.1", "/weather clear", "Set the weather to clear"),
-        ("1.20.1", "/give @s minecraft:stone 3", "Gave 3 [Stone] to Player"),
-        ("1.20.1", "/clear", "No items were found on player Player"),
-        ("1.20.1", "/kill @e[type=item]", "No entity was found"),
         ("1.20.1", "hello there", "<Player> hello there"),
     ],
 )
@@ -141,7 +135,7 @@ def test_commands_are_refused_without_cheats(version: str, answer: str) -> None:
 @pytest.mark.parametrize(
     ("version", "line", "answer"),
     [
-        ("1.12.2", "/setblock 1 2", "Usage: /setblock"),
+        ("1.12.2", "/fill 1 2", "Usage: /fill"),
         ("1.20.1", "/time set", "Incorrect argument for command"),
         ("1.20.1", "/weather", "Incorrect argument for command"),
     ],

@@ -49,21 +49,6 @@ def test_unknown_game_modes_are_refused(version: str, word: str) -> None:
     assert answer_to(f"/gamemode {word}", realm(version))[1]
 
 
-def test_give_adds_one_block_unless_a_count_is_given() -> None:
-    played = realm()
-    assert answer_to("/give @s stone", played) == ("Gave 1 [Stone] to Player", False)
-    answer_to("/give Player minecraft:oak_planks 5", played)
-    assert played.player.hotbar[:3] == [Stack("stone", 1), Stack("oak_planks", 5), None]
-
-
-def test_clearing_counts_what_it_removes() -> None:
-    played = realm()
-    played.player.hotbar[:2] = [Stack("stone", 3), Stack("dirt", 4)]
-    assert answer_to("/clear Player", played) == ("Removed 7 items from player Player", False)
-    assert played.player.hotbar == [None] * 9
-    assert answer_to("/clear", played) == ("No items were found on player Player", True)
-
-
 def test_item_replace_fills_a_slot_from_1_17_on() -> None:
     played = realm()
     assert answer_to("/item replace entity @s hotbar.8 with minecraft:stone 64", played) == (
@@ -103,22 +88,6 @@ def test_replaceitem_fills_a_slot_before_1_17(version: str, slot: str, answer: s
     assert answer_to(f"/replaceitem entity @s {slot} stone 3", played) == (answer, False)
     assert played.player.hotbar[2] == Stack("stone", 3)
     assert answer_to(f"/replaceitem block @s {slot} stone 3", played)[1]
-
-
-@pytest.mark.parametrize(
-    ("version", "line", "answer"),
-    [
-        ("1.12.2", "/effect @s speed", ("Applied effect speed to Player", False)),
-        ("1.13", "/effect give @s speed", ("Applied effect speed to Player", False)),
-        ("1.13", "/effect clear @s", ("Removed every effect from Player", False)),
-        ("1.13", "/effect @s speed", ("Incorrect argument for command", True)),
-        ("1.20.1", "/kill", ("Incorrect argument for command", True)),
-        ("1.20.1", "/kill @s", ("Incorrect argument for command", True)),
-        ("1.20.1", "/kill @e", ("No entity was found", True)),
-    ],
-)
-def test_effect_and_kill_get_the_answers_of_the_version(version: str, line: str, answer: tuple[str, bool]) -> None:
-    assert answer_to(line, realm(version)) == answer
 
 
 WRONG = ("Incorrect argument for command", True)
