@@ -19,7 +19,6 @@ from gymnasium.vector.utils import batch_space
 from numpy.typing import NDArray
 
 from mc_nested.arena.action import Cell
-from mc_nested.arena.scenario import Scenario
 from mc_nested.arena.vector import NO_ACTION, ArenaVectorEnv, taken_apart
 from mc_nested.arrays import Bools, Float32s, Float64s, Int64s
 from mc_nested.errors import LiveError, UserError
@@ -119,11 +118,6 @@ class ScreenArenas(VectorWrapper[Pictures, Int64s, Int64s, Int64s, Any]):
         self.observation_space = batch_space(self.single_observation_space, self.num_envs)
         self._pictures: Pictures = np.zeros((self.num_envs, FRAMES, SIDE, SIDE), np.uint8)
         self._has_ended: Bools = np.zeros(self.num_envs, np.bool_)
-
-    @property
-    def scenario(self) -> Scenario:
-        """What is built."""
-        return self._arenas.scenario
 
     def cell(self, run: int) -> Cell:
         """Return where the agent stands in that arena."""

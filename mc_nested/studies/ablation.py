@@ -71,12 +71,8 @@ class PartMeasures:
     updates: float
 
 
-def measures_on(trials: Sequence[Trial], scenario: str) -> list[PartMeasures]:
-    """Return what each part comes to on that scenario, in the order of the parts."""
-    return [_measures(own) for (_, where), own in on_each(trials).items() if where == scenario]
-
-
-def _measures(trials: Sequence[Trial]) -> PartMeasures:
+def measures_of(trials: Sequence[Trial]) -> PartMeasures:
+    """Return what a part comes to on one scenario."""
     played = played_by(trials)
     return PartMeasures(
         arm=trials[0].arm,
@@ -113,7 +109,8 @@ of all networks of a trial until it was solved or given up. Given up after: that
 def report(config: StudyConfig, trials: Sequence[Trial]) -> Report:
     """Report a table for each scenario, with a line for each part that is off."""
     optimum = optimum_of(trials)
-    found = {scenario: measures_on(trials, scenario) for scenario in optimum}
+    parts = on_each(trials).items()
+    found = {scenario: [measures_of(own) for (_, on), own in parts if on == scenario] for scenario in optimum}
     of_each = f"{number_of_trials(config.trials)} of each line on each design"
     tables = [
         f"## {scenario}, optimum {optimum[scenario]:g}\n\n{markdown_of([_line(part) for part in own])}"

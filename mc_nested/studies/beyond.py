@@ -17,7 +17,7 @@ from mc_nested.learn.preset import Preset, load_preset
 from mc_nested.studies.arm import Arm
 from mc_nested.studies.beyond_figure import beyond_figure, objectives_figure
 from mc_nested.studies.claim_text import claim_section, found_of, method, row_of
-from mc_nested.studies.claims.arm_results import ArmResults, Arms, arm_results
+from mc_nested.studies.claims.arm_results import ArmResults, Arms
 from mc_nested.studies.claims.beyond import equal_budget, judge_beyond, of_topic
 from mc_nested.studies.config import StudyConfig
 from mc_nested.studies.inference import ALPHA, share_interval
@@ -36,7 +36,7 @@ from mc_nested.studies.table import (
     mean,
     number_of_trials,
 )
-from mc_nested.studies.trial import Trial, greedy_table
+from mc_nested.studies.trial import Trial, greedy_table, on_each
 from mc_nested.studies.verdicts import JudgedClaim
 
 FEW = 3
@@ -190,7 +190,8 @@ COLUMNS = ("topic", "scenario", "agent", "trial", "episode", "score", "material"
 
 def report(config: StudyConfig, trials: Sequence[Trial]) -> Report:
     """Report what was trained, the claims with their verdicts, and how many trials would decide each."""
-    return report_on(config.study, arm_results(trials), config.trials, config.seed)
+    arms = {each.key: each for each in map(ArmResults, on_each(trials).values())}
+    return report_on(config.study, arms, config.trials, config.seed)
 
 
 def report_on(study: str, arms: Arms, trials: int, seed: int) -> Report:

@@ -92,7 +92,6 @@ def test_screen_arenas_know_the_agents_cell_and_the_blocks_and_cant_be_resumed(a
     assert arenas.cell(0) == arenas.cell(1) == (2, 1)
     assert arenas.placed(0) == frozenset({(2, 2)})
     assert arenas.placed(1) == frozenset()
-    assert arenas.scenario is SMALL
     assert arenas.resumable is None
 
 

@@ -6,8 +6,9 @@ from pathlib import Path
 
 from matplotlib.image import imread
 
-from mc_nested.studies.ablation import COLUMNS, STUDY, measures_on, report
+from mc_nested.studies.ablation import COLUMNS, STUDY, measures_of, report
 from mc_nested.studies.study import write_report
+from mc_nested.studies.trial import on_each
 from tests.cli.running import table
 from tests.studies.made_trials import LINE, PAPER, ZIGZAG, made_arm, made_config, made_trial
 
@@ -37,7 +38,7 @@ TRIALS = [
     for scenario in (LINE, ZIGZAG)
     for number, played in enumerate(PLAYED[name])
 ]
-FOUND = {measures.arm.name: measures for measures in measures_on(TRIALS, "line")}
+FOUND = {arm: measures_of(own) for (arm, on), own in on_each(TRIALS).items() if on == "line"}
 REPORT = report(made_config("ablation", TRIALS), TRIALS)
 TEXT = "\n\n".join(REPORT.text)
 

@@ -116,7 +116,7 @@ class Recovery:
                 raise LiveError(f"the title screen was not reached, the screen is {name}: leave the world, start again")
             self._wait_for_front()
             if name == "pause":
-                self.save_and_quit()
+                self._click((QUIT,), LEAVE)
             elif name in ("world", "chat"):
                 self.press("esc")
             elif name != "unknown":
@@ -176,10 +176,6 @@ class Recovery:
             self._enter_world()
         elif not self._click(LABELS[name], POINTS.get(name)) and name == "pause":
             self.press("esc")
-
-    def save_and_quit(self) -> None:
-        """Save the world and go to the title screen, from the pause menu."""
-        self._click((QUIT,), LEAVE)
 
     def _click(self, labels: tuple[str, ...], point: str | None) -> bool:
         """Click on the button with one of these labels, else on the point; return whether anything was clicked."""

@@ -1,6 +1,6 @@
 """The results of an arm of what the paper didn't try: its trials on one design, and what they took."""
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Literal
 
@@ -10,7 +10,7 @@ from mc_nested.arrays import Float64s
 from mc_nested.studies.arm import Arm
 from mc_nested.studies.outcome import Evaluated
 from mc_nested.studies.results import LAST
-from mc_nested.studies.trial import Trial, on_each
+from mc_nested.studies.trial import Trial
 
 Budget = Literal["steps", "updates"]
 """What two agents are given the same amount of."""
@@ -97,11 +97,6 @@ class ArmResults:
 
 Arms = dict[tuple[str, str, str], ArmResults]
 """Every arm by its key."""
-
-
-def arm_results(trials: Iterable[Trial]) -> Arms:
-    """Return the results of every arm on each of its designs."""
-    return {each.key: each for each in map(ArmResults, on_each(trials).values())}
 
 
 def _cost(evaluated: Evaluated, of: Budget) -> int:

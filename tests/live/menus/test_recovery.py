@@ -247,7 +247,7 @@ def test_the_chat_is_left_by_esc() -> None:
 
 def test_save_and_quit_leads_from_the_pause_menu_to_the_title() -> None:
     menus = FakeMenus("pause")
-    navigator_in(menus).save_and_quit()
+    navigator_in(menus).leave_world()
     assert (menus.pressed, menus.shown) == ([(427, 200)], "title")
 
 
