@@ -229,7 +229,8 @@ def _resume(path: Path, options: Sequence[str], device: str | None, how: HowToRu
     if folder.checkpoint.weights.is_file():
         raise UserError(f"{path}: an exported model isn't resumed: begin from it with --from {path}")
     if device:
-        folder = RunFolder(path, folder.config.on_device(device))
+        there = folder.config.preset.changed(device=device)
+        folder = RunFolder(path, folder.config.model_copy(update={"preset": there}))
     if "--profile" not in options and folder.config.profile:
         how = replace(how, opening=replace(how.opening, profile=folder.config.profile))
     with folder_lock(path):

@@ -20,17 +20,19 @@ import numpy as np
 import tomlkit
 from rich.console import Console
 from rich.progress import track
+from safetensors.numpy import save
 
 from mc_nested.arena.builder import build
 from mc_nested.arena.design import FEW_BLOCKS, random_scenario
 from mc_nested.arena.scenario import Scenario
 from mc_nested.arena.scenario_file import load_scenario, shipped_scenarios, table_of
 from mc_nested.arrays import Bools, Float32s
+from mc_nested.atomic_file import atomic_write
 from mc_nested.errors import RunError
 from mc_nested.learn.dqn.nearness import spread
 from mc_nested.learn.dqn.states import AGENT, NONE, OCCUPIED, WANTED, Sees
 from mc_nested.learn.objectives.decide import ObjectiveAgent, built_by_the_rules
-from mc_nested.learn.objectives.weights import Weights, agent_of, save_weights, shipped_file, shipped_weights
+from mc_nested.learn.objectives.weights import Weights, agent_of, shipped_file, shipped_weights
 from mc_nested.learn.runs.run_folder import RunFolder
 from mc_nested.live.input.signals import signals_as_exit
 from mc_nested.live.profile.store import load_profile
@@ -185,5 +187,6 @@ def measure(options: argparse.Namespace) -> tuple[Figures, bool]:
         figures["in the window"] = found = built_in_the_window(drawn(options.seed, options.window))
         is_right &= found["whole"] == found["of"]
     if options.run and options.ship:
-        save_weights(weights, shipped_file())
+        with atomic_write(shipped_file()) as unfinished:
+            unfinished.write_bytes(save(weights._asdict()))
     return figures, is_right

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from safetensors.numpy import save
 
 import mc_nested.cli.build
 import sim.worlds
@@ -15,7 +16,7 @@ from mc_nested.arena.scenario import Scenario
 from mc_nested.errors import LiveError
 from mc_nested.learn.evaluation import BuildStep
 from mc_nested.learn.objectives import weights
-from mc_nested.learn.objectives.weights import save_weights, shipped_weights
+from mc_nested.learn.objectives.weights import shipped_weights
 from mc_nested.live.devices import Display
 from mc_nested.live.live_game import LiveGame
 from mc_nested.live.profile.arena import Arena
@@ -154,13 +155,13 @@ def test_a_drawing_of_which_nothing_can_be_built_is_refused_in_one_line(
 
 def of_another_version(path: Path) -> None:
     main, nested = shipped_weights()
-    save_weights(weights.Weights(main[:-1], nested), path)
+    path.write_bytes(save({"main": main[:-1], "nested": nested}))
 
 
 def without_a_number(path: Path) -> None:
     main, nested = shipped_weights()
     main[7] = np.nan
-    save_weights(weights.Weights(main, nested), path)
+    path.write_bytes(save({"main": main, "nested": nested}))
 
 
 @pytest.mark.parametrize(

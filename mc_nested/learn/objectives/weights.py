@@ -6,12 +6,11 @@ from typing import NamedTuple
 
 import numpy as np
 from safetensors import SafetensorError
-from safetensors.numpy import load, save
+from safetensors.numpy import load
 
 from mc_nested.arena.action import Cell
 from mc_nested.arena.scenario import Material, Scenario
 from mc_nested.arrays import Float32s
-from mc_nested.atomic_file import atomic_write
 from mc_nested.errors import RunError
 from mc_nested.learn.dqn.states import Sees
 from mc_nested.learn.objectives.decide import ObjectiveAgent
@@ -45,12 +44,6 @@ def shipped_weights() -> Weights:
         raise RunError(f"{FILE}: can't be read ({error.strerror}): install the package again") from error
     except (SafetensorError, KeyError, ValueError) as error:
         raise RunError(f"{FILE}: is broken ({error}): install the package again") from error
-
-
-def save_weights(weights: Weights, file: Path) -> None:
-    """Write the weights; OSError if the disk refuses."""
-    with atomic_write(file) as unfinished:
-        unfinished.write_bytes(save(weights._asdict()))
 
 
 def agent_of(weights: Weights, scenario: Scenario, sees: Sees = "everything") -> ObjectiveAgent:

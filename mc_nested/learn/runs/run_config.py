@@ -66,7 +66,3 @@ class RunConfig(TomlTable):
         """
         usual = {} if self.design_unknown else {"design_unknown": True}
         return self.model_dump(exclude={"format": True, "profile": True, "preset": {"device"}, **usual})
-
-    def on_device(self, device: str) -> "RunConfig":
-        """Return the same training, computed elsewhere; PresetError if its engine can't."""
-        return self.model_copy(update={"preset": self.preset.changed(device=device)})

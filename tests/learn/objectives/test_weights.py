@@ -4,16 +4,17 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from safetensors.numpy import save
 
 from mc_nested.arena.scenario_file import load_scenario
 from mc_nested.errors import RunError
 from mc_nested.learn.objectives import weights
-from mc_nested.learn.objectives.weights import Weights, agent_of, save_weights, shipped_file, shipped_weights
+from mc_nested.learn.objectives.weights import agent_of, shipped_file, shipped_weights
 
 
 def test_weights_are_read_as_they_were_written(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     file = tmp_path / "own.safetensors"
-    save_weights(Weights(np.arange(3, dtype=np.float32), np.ones(2, np.float32)), file)
+    file.write_bytes(save({"main": np.arange(3, dtype=np.float32), "nested": np.ones(2, np.float32)}))
     monkeypatch.setattr(weights, "shipped_file", lambda: file)
     assert [each.tolist() for each in shipped_weights()] == [[0.0, 1.0, 2.0], [1.0, 1.0]]
 

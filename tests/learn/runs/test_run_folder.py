@@ -43,12 +43,12 @@ def begun(path: Path) -> RunFolder:
 def test_a_run_moved_to_another_device_keeps_its_identity_and_still_plays_on_the_cpu(tmp_path: Path) -> None:
     torch = config_of().preset.changed(engine="torch")
     here = config_of().model_copy(update={"preset": torch})
-    there = here.on_device("cuda")
+    there = here.model_copy(update={"preset": torch.changed(device="cuda")})
     assert there.preset.device == "cuda"
     assert there.identity() == here.identity()
     assert RunFolder(tmp_path, there).new_agent(1).networks == 2, "no such device is needed to play it"
     with pytest.raises(PresetError, match='device "cuda" needs engine "torch"'):
-        config_of().on_device("cuda")
+        config_of().preset.changed(device="cuda")
 
 
 def test_a_begun_folder_is_opened_with_its_config_and_never_overwritten(tmp_path: Path) -> None:
