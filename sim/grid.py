@@ -9,11 +9,10 @@ from gymnasium.vector.utils import batch_space
 from numpy.typing import NDArray
 
 from mc_nested.arena.action import Action, Cell
-from mc_nested.arena.env import ArenaEnv, action_space_of, highest_observation, rendered, space_up_to
+from mc_nested.arena.env import action_space_of, highest_observation, rendered, space_up_to
 from mc_nested.arena.game import Following, Outcome, PlayLog, Resumable
 from mc_nested.arena.rules import STEP, cells_of, grid_of, landing, moved
 from mc_nested.arena.scenario import Scenario
-from mc_nested.arena.scenario_file import load_scenario
 from mc_nested.arena.tally import Tally, tally_of
 from mc_nested.arena.vector import METADATA, NO_ACTION, reset_options, seeds_of, taken_apart
 from mc_nested.arrays import Arrays, Bools, Float64s, Int64s
@@ -64,12 +63,6 @@ class GridGame:
         x, y = snapshot["game_cell"].tolist()
         self._cell = x, y
         self._placed = set(cells_of(snapshot["game_placed"]))
-
-
-def arena_env(scenario: str | Scenario = "line", render_mode: str | None = None) -> ArenaEnv:
-    """Return one simulated arena of a shipped scenario's name, a scenario file, or a Scenario."""
-    loaded = scenario if isinstance(scenario, Scenario) else load_scenario(scenario)
-    return ArenaEnv(GridGame(loaded), loaded, render_mode)
 
 
 class GridVectorEnv(VectorEnv[Int64s, Int64s, Any]):

@@ -6,9 +6,10 @@ import numpy as np
 import torch
 from torch import nn
 
+from mc_nested.arena.env import ArenaEnv
 from mc_nested.arena.scenario_file import load_scenario
 from mc_nested.learn.preset import load_preset
-from sim.grid import arena_env
+from sim.grid import GridGame
 
 LINE, PAPER = load_scenario("line"), load_preset("paper")
 
@@ -31,7 +32,7 @@ def plain_loop() -> Slices:
 def _plain_ddqn() -> Iterator[None]:
     """Yield after each update."""
     random = np.random.default_rng(0)
-    env = arena_env(LINE)
+    env = ArenaEnv(GridGame(LINE), LINE)
     online, target = _network(), _network()
     target.load_state_dict(online.state_dict())
     optimiser = torch.optim.Adam(online.parameters(), lr=PAPER.update.learning_rate)
@@ -92,7 +93,7 @@ def sb3() -> Slices:
     update = PAPER.update
     model = DQN(
         "MlpPolicy",
-        arena_env(LINE),
+        ArenaEnv(GridGame(LINE), LINE),
         learning_rate=update.learning_rate,
         buffer_size=200_000,
         learning_starts=update.batch,

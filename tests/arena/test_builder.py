@@ -12,7 +12,7 @@ from mc_nested.arena.env import step_in
 from mc_nested.arena.rules import landing, moved
 from mc_nested.arena.scenario import Material, Part, Scenario
 from mc_nested.arena.scenario_file import load_scenario, shipped_scenarios
-from sim.grid import arena_env
+from tests.arena.simulated import arena_env
 
 
 @pytest.mark.parametrize("name", shipped_scenarios())

@@ -16,9 +16,10 @@ from mc_nested.arena.game import Following, Outcome
 from mc_nested.arena.scenario import Scenario
 from mc_nested.arena.scenario_file import load_scenario
 from mc_nested.errors import LiveError, ScenarioError
-from sim.grid import GridGame, arena_env
+from sim.grid import GridGame
 from tests.arena.made_games import TakesAtItsWord
 from tests.arena.made_parts import STONE, STRIPES, TO_FAR, WOOD, scenarios_with_parts
+from tests.arena.simulated import arena_env
 
 
 @pytest.fixture

@@ -16,10 +16,11 @@ from mc_nested.arena.scenario import Scenario
 from mc_nested.arena.scenario_file import load_scenario
 from mc_nested.arena.single import SingleAgentVectorEnv
 from mc_nested.arena.vector import ArenaVectorEnv
-from sim.grid import GridVectorEnv, arena_env
+from sim.grid import GridVectorEnv
 from sim.team_grid import TeamGrid
 from tests.arena.made_games import PlayedByAPerson, TakesAtItsWord
 from tests.arena.made_parts import STRIPES, scenarios_with_parts
+from tests.arena.simulated import arena_env
 
 LINE = load_scenario("line")
 WOOD, STONE, FIRST_MOVE = 0, 1, 2

@@ -15,8 +15,9 @@ from mc_nested.arena.scenario import Material, Part, Scenario
 from mc_nested.arena.scenario_file import load_scenario
 from mc_nested.arena.single import SingleAgentVectorEnv
 from mc_nested.arena.vector import NO_ACTION, ArenaVectorEnv
-from sim.grid import GridVectorEnv, arena_env
+from sim.grid import GridVectorEnv
 from tests.arena.made_parts import STONE, STRIPES, TO_FAR, TO_NEAR, WOOD, scenarios_with_parts
+from tests.arena.simulated import arena_env
 
 LINE = load_scenario("line")
 

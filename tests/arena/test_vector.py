@@ -19,8 +19,9 @@ from mc_nested.arena.scenario_file import load_scenario
 from mc_nested.arena.single import SingleAgentVectorEnv
 from mc_nested.arena.vector import NO_ACTION, ArenaVectorEnv, NextStepAutoreset, foresees, resumable_arenas
 from mc_nested.errors import ScenarioError
-from sim.grid import GridGame, GridVectorEnv, arena_env
+from sim.grid import GridGame, GridVectorEnv
 from tests.arena.made_games import TakesAtItsWord
+from tests.arena.simulated import arena_env
 from tests.learn.made_trainings import StartsOver
 
 LINE = load_scenario("line")

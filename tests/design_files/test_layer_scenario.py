@@ -11,7 +11,7 @@ from mc_nested.arena.scenario_file import draw_grid, load_scenario, scenario_of,
 from mc_nested.design_files.layer_scenario import scenario_of_layer
 from mc_nested.design_files.volume import Volume
 from mc_nested.errors import ScenarioError
-from sim.grid import arena_env
+from tests.arena.simulated import arena_env
 
 LINE = load_scenario("line")
 

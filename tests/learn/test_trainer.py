@@ -19,8 +19,9 @@ from mc_nested.learn.exploration.return_then_explore import Excursions
 from mc_nested.learn.learner import Learner
 from mc_nested.learn.preset import ExcursionRule, Imitation, MainUpdates, Preset, Prioritized
 from mc_nested.learn.trainer import Trainer
-from sim.grid import GridVectorEnv, arena_env
+from sim.grid import GridVectorEnv
 from tests.arena.made_games import PERSON, PlayedByAPerson
+from tests.arena.simulated import arena_env
 from tests.learn.made_trainings import SHORT, Slips, StartsOver, assert_same, copied, finish, saved, ticked
 
 LINE, DIAMOND = load_scenario("line"), load_scenario("diamond")

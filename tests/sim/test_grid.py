@@ -13,8 +13,9 @@ from mc_nested.arena.builder import build
 from mc_nested.arena.scenario import Scenario
 from mc_nested.arena.scenario_file import load_scenario
 from mc_nested.arena.vector import NO_ACTION, ArenaVectorEnv
-from sim.grid import GridVectorEnv, arena_env
+from sim.grid import GridVectorEnv
 from tests.arena.made_parts import scenarios_with_parts
+from tests.arena.simulated import arena_env
 
 LINE, ZIGZAG, DIAMOND = (load_scenario(name) for name in ("line", "zigzag", "diamond"))
 

@@ -13,7 +13,7 @@ from mc_nested.arena.env import step_in
 from mc_nested.arena.scenario import Scenario
 from mc_nested.arena.scenario_file import load_scenario, shipped_scenarios
 from mc_nested.studies.results import Curve, builders_score, curve_of, early_limit
-from sim.grid import arena_env
+from tests.arena.simulated import arena_env
 from tests.studies.made_trials import LINE, made_arm, made_trial
 
 
