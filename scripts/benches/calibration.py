@@ -42,9 +42,10 @@ from scripts.bench import Figures
 from scripts.benches.calibration_clients import VERSIONS, clients, every_version
 from scripts.benches.live import play_on
 from scripts.benches.played import PlayCounts
+from scripts.benches.walked import displacement
 from sim.client.client import VirtualClient
 from sim.client.drawing.letters import drawn_atlas
-from sim.client.game.physics import Ground, displacement
+from sim.client.game.physics import Ground
 from sim.client.game.screens import MenuState, ScreenName, menu
 from sim.client.settings import ClientSettings
 

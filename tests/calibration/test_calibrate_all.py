@@ -358,6 +358,9 @@ class StepLog:
 
     events: list[object] = field(default_factory=list)
 
+    def doctor_done(self, checks: Sequence[Check]) -> None:
+        self.events.append(checks)
+
     def begin(self, name: str, number: int, of: int) -> None:
         self.events.append((name, number, of))
 

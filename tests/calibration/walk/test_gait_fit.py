@@ -8,8 +8,8 @@ from hypothesis import strategies as st
 from calibration.walk.gait_fit import FEWEST, GaitModel, HoldTrace, fit_gait, match_hold, rms
 from mc_nested.errors import NotConfirmedError
 from mc_nested.live.model.kinematics import INERTIA, PUSH, SNEAKING, TICK_S, displacement
+from scripts.benches.walked import displacement as walked
 from sim.client.game import physics
-from tests.sim.client.walked import displacement as walked
 
 PLAIN = GaitModel(PUSH, INERTIA)
 

@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 
 from mc_nested.live.devices import Clipboard, Clock, Display, Keyboard, Pointer, Region
 from mc_nested.live.model.reading import Reading
+from scripts.benches.walked import displacement
 from sim.client.client import VirtualClient
 from sim.client.game.options import GameOptions
 from sim.client.game.realm import Stack
@@ -16,7 +17,6 @@ from sim.client.game.screens import MenuState, menu
 from sim.client.settings import gui_scale
 from tests.sim.client.f3_lines import left_lines, right_lines
 from tests.sim.client.playing import TAP_S, arena_of, click, command, read, tap
-from tests.sim.client.walked import displacement
 
 
 def screen_of(client: VirtualClient) -> str:

@@ -3,6 +3,7 @@ import math
 import numpy as np
 import pytest
 
+from scripts.benches.walked import displacement
 from sim.client.client import VirtualClient
 from sim.client.desktop.clock import Frames, VirtualClock
 from sim.client.desktop.window import VirtualWindow
@@ -12,7 +13,6 @@ from sim.client.game.realm import Player, Realm, Stack
 from sim.client.game.world import VirtualWorld
 from sim.client.mishaps import DRAWN, KINDS, SIZES, Kind, Mishap, Mishaps
 from tests.sim.client.playing import read, tap
-from tests.sim.client.walked import displacement
 
 
 def struck(kind: Kind) -> VirtualClient:

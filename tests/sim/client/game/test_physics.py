@@ -7,6 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from scripts.benches.walked import displacement
 from sim.client.game.edition import Edition
 from sim.client.game.game import VirtualGame
 from sim.client.game.physics import (
@@ -26,7 +27,6 @@ from sim.client.game.physics import (
 )
 from sim.client.game.realm import Player, Realm, Stack
 from sim.client.game.world import VirtualWorld
-from tests.sim.client.walked import displacement
 
 INERTIA = 0.546
 PUSH = 0.98 * 0.1 * 0.1627714 / INERTIA**3
