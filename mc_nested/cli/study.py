@@ -4,7 +4,7 @@ A study's options and their defaults are its declaration's; what each means stan
 """
 
 import importlib
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from collections.abc import Set as AbstractSet
 from dataclasses import dataclass
 from functools import partial
@@ -180,57 +180,42 @@ def declared(name: str) -> Study:
     return found
 
 
-def command_of(study: Study, instead: Mapping[str, str] | None = None) -> Callable[..., None]:
-    """Return the command that runs the study; ``instead`` has flags that run another by its name, and their help."""
-    others = instead or {}
+def command_of(study: Study) -> Callable[..., None]:
+    """Return the command that runs the study."""
 
     def command(context: typer.Context, **values: Any) -> None:
         given = {name for name in values if is_given(context, name)}
         output = Output(values["quiet"], values["as_json"])
         scheduler = cluster_of(values["cluster"], values["keys"], values["insecure"])
         if values["resume"] is not None:
-            _check_given(given, BESIDE_RESUME, "--resume goes on with its own config.toml")
-            verbs = [verb_of_study(name) for name in (study.name, *others)]
-            folder = StudyFolder.open(values["resume"], verbs)
+            for name in sorted(given - set(BESIDE_RESUME)):
+                raise UserError(f"--resume goes on with its own config.toml: leave out --{name.replace('_', '-')}")
+            folder = StudyFolder.open(values["resume"], [verb_of_study(study.name)])
             with folder_lock(values["resume"]):
-                run_study(declared(folder.config.study), folder, output, scheduler)
+                run_study(study, folder, output, scheduler)
             return
-        asked, own = study, values
-        if chosen := next((name for name in others if values[name]), None):
-            asked = declared(chosen)
-            _check_given(
-                given, (chosen, *asked.options, *EVERY_STUDY), f"--{chosen} takes fewer options than {study.name}"
-            )
-            own = {**values, **{name: default for name, default in asked.options.items() if name not in given}}
-        options = _options_of(asked, own, given)
-        arms = _checked_arms(asked, options)
+        options = _options_of(study, values, given)
+        arms = _checked_arms(study, options)
         config = config_of(
-            asked.name,
+            study.name,
             arms,
             trials=options.trials,
             seed=options.seed,
-            jobs=own["jobs"] or jobs_at_once(scheduler, output),
-            notes=asked.notes(options),
+            jobs=values["jobs"] or jobs_at_once(scheduler, output),
+            notes=study.notes(options),
         )
-        with output_folder(own["out"], asked.folder or asked.name) as path:
-            run_study(asked, StudyFolder.new(path, config), output, scheduler)
+        with output_folder(values["out"], study.folder or study.name) as path:
+            run_study(study, StudyFolder.new(path, config), output, scheduler)
 
-    flags = {name: (Annotated[bool, typer.Option(f"--{name}", help=what)], False) for name, what in others.items()}
     own = {name: (OPTIONS[name], default) for name, default in study.options.items()}
     parameters = [Parameter("context", Parameter.POSITIONAL_OR_KEYWORD, annotation=typer.Context)]
-    for name, (kind, default) in {**own, **flags, **EVERY_STUDY}.items():
+    for name, (kind, default) in {**own, **EVERY_STUDY}.items():
         parameters.append(Parameter(name, Parameter.KEYWORD_ONLY, default=default, annotation=kind))
     command.__signature__ = Signature(parameters)  # type: ignore[attr-defined]
     command.__annotations__ = {parameter.name: parameter.annotation for parameter in parameters}
     writes = ", ".join(study.files.values())
     command.__doc__ = f"{study.what}\n\nCtrl+C saves, and --resume goes on from there. Writes {writes}."
     return prints(RESULTS.get(study.name, Studied))(command)
-
-
-def _check_given(given: Iterable[str], beside: Sequence[str], why: str) -> None:
-    """Raise UserError, which says why, if an option was given that isn't one of those."""
-    for name in sorted(set(given) - set(beside)):
-        raise UserError(f"{why}: leave out --{name.replace('_', '-')}")
 
 
 def _checked_arms(study: Study, options: StudyOptions) -> Sequence[Arm]:

@@ -48,18 +48,9 @@ from tests.cli.running import check_mistake
         (["runs", "evaluate", "NEW"], "no config.toml there"),
         (["calibrate", "undo", "--profile", "NEW.toml"], "there is no earlier profile"),
         (["reproduce", "--preset", "tuned", "--out", "NEW"], "is not for the single agent"),
-        (["reproduce", "--beyond", "--device", "mps", "--out", "NEW"], "mps"),
-        (
-            ["reproduce", "--robustness", "--agent", "nested"],
-            "--robustness takes fewer options than reproduce: leave out --agent",
-        ),
-        (
-            ["reproduce", "--robustness", "--longer", "10"],
-            "--robustness takes fewer options than reproduce: leave out --longer",
-        ),
-        (["reproduce", "--robustness", "--preset", "tuned"], "is not for the single agent"),
-        (["reproduce", "--robustness", "--scenario", "line", "--scenario", "line"], "two scenarios are named 'line'"),
-        (["reproduce", "--robustness", "--resume", "NEW"], "leave out --robustness"),
+        (["study", "beyond", "--device", "mps", "--out", "NEW"], "mps"),
+        (["study", "robustness", "--preset", "tuned"], "is not for the single agent"),
+        (["study", "robustness", "--scenario", "line", "--scenario", "line"], "two scenarios are named 'line'"),
         (["study", "sweep", "--designs", "3"], "mc-nested: No such option: --designs\n"),
         (["study", "ablation", "--resume", "NEW", "--trials", "3"], "leave out --trials"),
         (

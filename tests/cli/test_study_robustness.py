@@ -1,4 +1,4 @@
-"""``mc-nested reproduce --robustness``: its folder, its files, and a resume."""
+"""``mc-nested study robustness``: its folder, its files, and a resume."""
 
 import json
 from pathlib import Path
@@ -34,7 +34,7 @@ def done(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Return a study that the command began, and --resume went on with."""
     out = tmp_path_factory.mktemp("robust") / "run"
     StudyFolder.new(out, config(GAMMA, START)).begin()
-    assert run("reproduce", "--resume", out, "--quiet") == 0
+    assert run("study", "robustness", "--resume", out, "--quiet") == 0
     return out
 
 
@@ -52,20 +52,20 @@ def test_a_stopped_study_is_resumed_and_leaves_its_files(done: Path) -> None:
 
 def test_resuming_a_finished_study_writes_the_same_files(done: Path, capsys: pytest.CaptureFixture[str]) -> None:
     before = {name: (done / name).read_bytes() for name in FILES.values()}
-    assert run("reproduce", "--resume", done, "--json") == 0
+    assert run("study", "robustness", "--resume", done, "--json") == 0
     assert {name: (done / name).read_bytes() for name in FILES.values()} == before
     found = json.loads(capsys.readouterr().out)
     assert found["files"]["table"] == str(done / "robustness.md")
     claim = next(each for each in found["claims"] if each["letter"] == "e1")
     assert claim["verdict"] == "holds"
     assert claim["choices"] == {"γ: 0.5": "holds", "start: beside": "holds"}
-    check_one_at_a_time(["reproduce"], done, capsys)
+    check_one_at_a_time(["study", "robustness"], done, capsys)
 
 
 @pytest.mark.slow
 def test_the_command_trains_every_choice_for_every_agent(tmp_path: Path) -> None:
     out = tmp_path / "out"
-    assert run("reproduce", "--robustness", *write_study(tmp_path, DOT), "--episodes", "10", "--out", out) == 0
+    assert run("study", "robustness", *write_study(tmp_path, DOT), "--episodes", "10", "--out", out) == 0
     expected = open_choices(small_preset(10), [DOT])
     found = {(row["choice"], row["value"]) for row in table(out / "robustness.csv")}
     assert found == {(choice.choice, choice.value) for choice in expected}

@@ -8,8 +8,6 @@ from tests.design_files import written
 
 SIZES = {
     "mc-nested reproduce": "--trials 1 --episodes 4 --scenario line",
-    "mc-nested reproduce --robustness": "--trials 1 --episodes 1 --scenario line",
-    "mc-nested reproduce --beyond": "--trials 1 --episodes 4",
     "mc-nested study robustness": "--trials 1 --episodes 1 --scenario line",
     "mc-nested study beyond": "--trials 1 --episodes 4",
     "mc-nested study objectives": "--trials 1 --episodes 2",

@@ -1,4 +1,4 @@
-"""The arms of reproduce --beyond, and the jobs that they are cut into."""
+"""The arms of study beyond, and the jobs that they are cut into."""
 
 from pathlib import Path
 

@@ -1,4 +1,4 @@
-"""The report of reproduce --beyond: its content, and the same for the same results."""
+"""The report of study beyond: its content, and the same for the same results."""
 
 from pathlib import Path
 
