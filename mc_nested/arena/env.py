@@ -127,6 +127,16 @@ class ArenaEnv(gymnasium.Env[Observation, Any]):
         return frozenset(self._placed)
 
     @property
+    def steps(self) -> int:
+        """The steps since the last reset."""
+        return self._steps
+
+    @property
+    def material(self) -> str:
+        """The name of the material in hand."""
+        return self.scenario.materials[self._material].name
+
+    @property
     def score(self) -> float:
         """r_M if the episode ended now."""
         if self._tally is None:
@@ -257,4 +267,4 @@ class ArenaEnv(gymnasium.Env[Observation, Any]):
         return np.array([*self._cell, self._blocks_left], dtype=np.int64)
 
     def _info(self) -> Info:
-        return {"material": self.scenario.materials[self._material].name}
+        return {"material": self.material}

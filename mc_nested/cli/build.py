@@ -36,7 +36,7 @@ from mc_nested.learn.evaluation import BuildStep, GreedyEpisode, steps_of, take_
 from mc_nested.learn.objectives.weights import agent_of, shipped_weights
 from mc_nested.live.live_game import started_over
 from mc_nested.live.profile.store import load_profile, profile_path
-from mc_nested.report.film import check_film
+from mc_nested.report.film import EpisodeFilm, check_film
 from sim.worlds import Backend, open_game, where_words
 
 
@@ -110,9 +110,10 @@ def build(  # noqa: PLR0913 - a Typer verb: a parameter for each option
     opening = opening_of(profile, f"build-{scenario.name}", record, server_allowed=server_allowed, backend=backend)
     with viewed(view, "build", f"{scenario.name}, {where_words(backend)}") as viewing:
         opened = open_game(backend, scenario, replace(opening, journal=viewing.publisher.board))
-        with opened as (played, display), filmed(played, display, scenario, video) as game:
+        with opened as (game, display), filmed(game, display, video) as film:
             env = ArenaEnv(game, scenario)
-            episode = started_over(partial(_built, env, in_hand, steps, viewing, quiet=quiet or as_json), say_aside)
+            watch = partial(_built, env, in_hand, steps, viewing, film, quiet=quiet or as_json)
+            episode = started_over(watch, say_aside)
             times = times_of(game)
     built, count, name = len(env.placed & scenario.design), len(episode.actions), episode.material_name(scenario)
     found = Built(
@@ -137,9 +138,11 @@ def build(  # noqa: PLR0913 - a Typer verb: a parameter for each option
     _check_whole(built, scenario.blocks - len(env.placed), count, drawn)
 
 
-def _built(env: ArenaEnv, material: int | None, steps: Steps, viewing: Viewed, *, quiet: bool) -> GreedyEpisode:
+def _built(
+    env: ArenaEnv, material: int | None, steps: Steps, viewing: Viewed, film: EpisodeFilm | None, *, quiet: bool
+) -> GreedyEpisode:
     """Build the design from a reset on."""
-    with watched(env, env.scenario.name, viewing, quiet=quiet) as show:
+    with watched(env, env.scenario.name, viewing, film, quiet=quiet) as show:
         return take_steps(env, steps(env), material, show)
 
 

@@ -33,7 +33,7 @@ from mc_nested.live.devices import Display
 from mc_nested.live.input.stops import Takeover
 from mc_nested.live.live_game import started_over
 from mc_nested.live.menus.click_points import picture_bytes
-from mc_nested.report.film import check_film
+from mc_nested.report.film import EpisodeFilm, check_film
 from sim.worlds import Backend, as_shown, check_window, open_game, where_words
 
 
@@ -94,10 +94,10 @@ def play(  # noqa: PLR0913 - a Typer verb: a parameter for each option
         window = open_game(
             backend, scenario, replace(opening, journal=publisher.board, takeover=Takeover(publisher.offer_takeover))
         )
-        with window as (opened, display), filmed(opened, display, scenario, video) as game:
+        with window as (game, display), filmed(game, display, video) as film:
             pictures = _Screenshots(folder.path / "screenshots", display) if screenshots and display else None
             is_quiet = output.quiet or output.as_json
-            watch = partial(_watch, game, folder, agent, which, pictures, viewing, is_quiet=is_quiet)
+            watch = partial(_watch, game, folder, agent, which, pictures, viewing, film, is_quiet=is_quiet)
             episode = started_over(watch, say_aside)
             times = times_of(game)
     material = episode.material_name(scenario)
@@ -127,6 +127,7 @@ def _watch(
     which: int,
     pictures: "_Screenshots | None",
     viewing: Viewed,
+    film: EpisodeFilm | None,
     *,
     is_quiet: bool,
 ) -> GreedyEpisode:
@@ -136,16 +137,11 @@ def _watch(
     if pictures:
         pictures.begin()
     take_picture = pictures.take if pictures else lambda: None
-    with watched(env, f"{scenario.name}, trial {which}", viewing, quiet=is_quiet) as show:
+    with watched(env, f"{scenario.name}, trial {which}", viewing, film, quiet=is_quiet) as show:
         if folder.config.trains_objectives:
             return build_greedily(env, agent, show, take_picture)
-
-        def after_step() -> None:
-            show(None)
-            take_picture()
-
         arenas = agent.view_of(as_shown(ArenaVectorEnv([env]), folder.config.preset.states), [scenario])
-        return play_greedily(arenas, [scenario], agent, after_step)[0]
+        return play_greedily(arenas, [scenario], agent, show, take_picture)[0]
 
 
 def _choose(folder: RunFolder, trial: int | None) -> tuple[Agent, int]:

@@ -15,7 +15,6 @@ from mc_nested.arena.action import Cell
 from mc_nested.arena.drawing import Picture
 from mc_nested.arena.env import ArenaEnv
 from mc_nested.arena.game import Game
-from mc_nested.arena.scenario import Scenario
 from mc_nested.cli.view import Viewed
 from mc_nested.errors import FilmError
 from mc_nested.live.devices import Display
@@ -23,7 +22,7 @@ from mc_nested.live.live_game import LiveGame
 from mc_nested.live.vision.chat_region import blanked_share, without_chat
 from mc_nested.live.vision.game_screen import seen_gui_scale
 from mc_nested.report.arena_picture import ARENA_PX, SMALL_ARENA_PX
-from mc_nested.report.film import FilmedGame, Window, open_film
+from mc_nested.report.film import EpisodeFilm, Window, open_film
 from mc_nested.report.terminal import arena_view
 from mc_nested.view.status import ArenaSeen, Standing
 
@@ -47,13 +46,13 @@ def arena_seen(env: ArenaEnv, objective: Cell | None) -> ArenaSeen:
 
 @contextmanager
 def watched(
-    env: ArenaEnv, title: str, viewing: Viewed, *, quiet: bool = False
+    env: ArenaEnv, title: str, viewing: Viewed, film: EpisodeFilm | None, *, quiet: bool = False
 ) -> Iterator[Callable[[Cell | None], None]]:
     """Yield a function that shows the arena as it is now, in the place of what it showed before, while the block runs.
 
-    It takes the cell that the agent is after from now on, if it has one, and tells a film of it, too. It publishes the
-    arena, and returns once no pause is wanted. A view leaves no room for anything else here; in it, simulated steps are
-    slowed down, so that they can be followed.
+    It takes the cell that the agent is after from now on, if it has one. It films and publishes the arena, and returns
+    once no pause is wanted. A view leaves no room for anything else here; in it, simulated steps are slowed down, so
+    that they can be followed.
     """
     quiet = quiet or viewing.is_shown
     console = Console(quiet=quiet)
@@ -61,9 +60,9 @@ def watched(
 
         def show(objective: Cell | None) -> None:
             scenario = env.scenario
+            if film:
+                film.show(env, objective)
             viewing.publisher.board.show(arena=arena_seen(env, objective))
-            if isinstance(env.game, FilmedGame):
-                env.game.objective = objective
             viewing.publisher.wait_while_paused()
             if viewing.is_shown and env.game.log is None:
                 time.sleep(STEP_S)
@@ -89,22 +88,22 @@ def say_aside(line: str) -> None:
 
 
 @contextmanager
-def filmed(game: Game, display: Display | None, scenario: Scenario, video: Path | None) -> Iterator[Game]:
-    """Yield the game, filmed if there is a file for it.
+def filmed(game: Game, display: Display | None, video: Path | None) -> Iterator[EpisodeFilm | None]:
+    """Yield a film of what is played, to show episodes in; None if there is no file for it.
 
     However the block ends, the film shows what was played until then.
 
     Raise FilmError, one line, where it can't be written.
     """
     if video is None:
-        yield game
+        yield None
         return
     window = _window_of(game, display) if display else None
     # A .gif takes ten times an .mp4's room.
     arena_px = SMALL_ARENA_PX if video.suffix.lower() == ".gif" else ARENA_PX
     try:
         with open_film(video) as film:
-            yield FilmedGame(game, scenario, film, window, arena_px)
+            yield EpisodeFilm(film, window, arena_px)
     except FilmError:
         raise
     except BaseException:

@@ -45,9 +45,10 @@ def play_greedily(
     env: VectorEnv[Int64s, Int64s, Any],
     scenarios: Sequence[Scenario],
     agent: Agent,
+    show: Callable[[Cell | None], None] = lambda _: None,
     after_step: Callable[[], None] = lambda: None,
 ) -> list[GreedyEpisode]:
-    """Play one greedy episode of every run, from a reset on; ``after_step`` is called after each step of all runs."""
+    """Play one greedy episode of every run, from a reset on; callbacks as ``take_steps``'s, which no cell is told."""
     runs, builders = len(scenarios), agent.builders
     first = slice(None, None, builders)
     has_parts = any(scenario.parts for scenario in scenarios)
@@ -59,6 +60,7 @@ def play_greedily(
     episodes = [GreedyEpisode() for _ in scenarios]
     running = np.ones(runs, dtype=np.bool_)
     while running.any():
+        show(None)
         actions = agent.act(agent.low_level_states(observations, materials), materials, never, of_builders)
         takes = np.stack((actions, materials), axis=1) if agent.main and has_parts else actions
         announce(env, agent, takes, materials, never, of_builders, running)
@@ -76,6 +78,7 @@ def play_greedily(
             materials[due] = agent.main.act(observations[due], never[due], unused[due], due)
         running = ~(terminated | truncated)[first]
         after_step()
+    show(None)
     return episodes
 
 

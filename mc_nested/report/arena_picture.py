@@ -1,7 +1,5 @@
 """A picture of a film: the arena from above, its step and its score, and beside it the game's window, if it has one."""
 
-from collections.abc import Collection
-from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
 
@@ -11,7 +9,7 @@ from PIL import Image, ImageDraw, ImageFont, ImageOps
 
 from mc_nested.arena.action import Cell
 from mc_nested.arena.drawing import COLOURS, Colour, Picture, draw_objective, draw_picture
-from mc_nested.arena.scenario import Scenario
+from mc_nested.arena.env import ArenaEnv
 
 Size = tuple[int, int]
 """Width and height in pixels."""
@@ -41,38 +39,27 @@ LINES = 12, 36
 WINDOW = "the window; grey: the chat's place"
 
 
-@dataclass(frozen=True)
-class Moment:
-    """A moment of an episode: the agent's cell, the cells that hold a block, the steps so far, and the material.
+def draw_moment(env: ArenaEnv, objective: Cell | None = None, arena_px: int = ARENA_PX) -> Picture:
+    """Draw the arena from above, (height, width, 3), below the design's name, the step, the blocks and the score.
 
-    ``score`` is r_M if the episode ended now; ``objective`` the cell that the agent is after, if it has one.
+    The score is r_M if the episode ended now. The objective, the cell that the agent is after, is framed.
     """
-
-    cell: Cell
-    placed: Collection[Cell]
-    steps: int
-    material: int
-    score: float
-    objective: Cell | None = None
-
-
-def draw_moment(scenario: Scenario, moment: Moment, arena_px: int = ARENA_PX) -> Picture:
-    """Draw the arena from above, (height, width, 3), below the design's name, the step, the blocks and the score."""
+    scenario = env.scenario
     paper = np.full((arena_px + CAPTION + MARGIN, arena_px + 2 * MARGIN, 3), PAPER, dtype=np.uint8)
-    arena = draw_picture(scenario, moment.cell, moment.placed, arena_px // scenario.size)
-    if moment.objective is not None:
-        draw_objective(arena, scenario.size, moment.objective, arena_px // scenario.size)
+    arena = draw_picture(scenario, env.cell, env.placed, arena_px // scenario.size)
+    if objective is not None:
+        draw_objective(arena, scenario.size, objective, arena_px // scenario.size)
     unused = (arena_px - len(arena)) // 2
     top, left = CAPTION + unused, MARGIN + unused
     paper[top : top + len(arena), left : left + len(arena)] = arena
-    name = f"{scenario.name}, in {scenario.materials[moment.material].name}"
-    built = len(scenario.design.intersection(moment.placed))
-    score = f"{moment.score:g} of {scenario.optimum:g}"
+    name = f"{scenario.name}, in {env.material}"
+    built = len(scenario.design & env.placed)
+    score = f"{env.score:g} of {scenario.optimum:g}"
     image = Image.fromarray(paper)
     pen = ImageDraw.Draw(image)
     right, (upper, lower) = MARGIN + arena_px, LINES
     pen.text((MARGIN, upper), _fitting(name, _font(*BOLD), arena_px - STEP_PX), INK, _font(*BOLD))
-    pen.text((right, upper + 2), f"step {moment.steps}", PALE_INK, _font(*PLAIN), anchor="ra")
+    pen.text((right, upper + 2), f"step {env.steps}", PALE_INK, _font(*PLAIN), anchor="ra")
     pen.text((MARGIN, lower), f"{built} of {scenario.blocks} blocks", PALE_INK, _font(*PLAIN))
     pen.text((right, lower), f"score {score}", PALE_INK, _font(*PLAIN), anchor="ra")
     return np.asarray(image)

@@ -5,9 +5,10 @@ from typing import NamedTuple
 import pytest
 
 from mc_nested.arena.action import Cell
+from mc_nested.arena.env import ArenaEnv
 from mc_nested.arena.scenario import Scenario
 from mc_nested.report import terminal
-from mc_nested.report.film import FilmedGame
+from mc_nested.report.film import EpisodeFilm
 from mc_nested.view.board import Board
 
 
@@ -22,7 +23,7 @@ class Shown(NamedTuple):
 def objectives_shown(monkeypatch: pytest.MonkeyPatch) -> Shown:
     """Return what is shown from here on."""
     shown = Shown([], [], [])
-    view, show, act = terminal.arena_view, Board.show, FilmedGame.act
+    view, show, film_show = terminal.arena_view, Board.show, EpisodeFilm.show
 
     def arena_view(scenario: Scenario, agent: Cell, placed: frozenset[Cell], objective: Cell | None) -> object:
         shown.drawn.append(objective)
@@ -33,11 +34,11 @@ def objectives_shown(monkeypatch: pytest.MonkeyPatch) -> Shown:
             shown.published.append(fields["arena"].objective)  # type: ignore[attr-defined]  # an ArenaSeen
         show(board, **fields)
 
-    def filmed_act(game: FilmedGame, *asked: object) -> object:
-        shown.filmed.append(game.objective)
-        return act(game, *asked)  # type: ignore[arg-type]  # what it is asked for
+    def filmed(film: EpisodeFilm, env: ArenaEnv, objective: Cell | None) -> None:
+        shown.filmed.append(objective)
+        film_show(film, env, objective)
 
     monkeypatch.setattr("mc_nested.cli.watching.arena_view", arena_view)
     monkeypatch.setattr(Board, "show", board_show)
-    monkeypatch.setattr(FilmedGame, "act", filmed_act)
+    monkeypatch.setattr(EpisodeFilm, "show", filmed)
     return shown

@@ -241,8 +241,7 @@ def test_the_arena_the_view_and_the_film_show_what_the_agent_is_after(
     shown = objectives_shown(monkeypatch)
     acts(monkeypatch, Action.B, Action.BD)
     assert run("build", "line", "--agent", "--video", tmp_path / "film.gif") == 2
-    assert shown.drawn == shown.published == [(7, 3), (7, 3), None]
-    assert shown.filmed == [(7, 3), (7, 3)]
+    assert shown.drawn == shown.published == shown.filmed == [(7, 3), (7, 3), None]
     shown.drawn.clear()
     assert run("build", "line") == 0
     assert set(shown.drawn) == {None}

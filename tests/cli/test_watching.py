@@ -1,6 +1,5 @@
 """``--video``: a film of an episode, in the simulator, in a window, and of an episode that ends early."""
 
-from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 
@@ -9,7 +8,7 @@ import pytest
 
 from mc_nested.arena.action import Action
 from mc_nested.arena.drawing import Picture
-from mc_nested.arena.game import Game
+from mc_nested.arena.env import ArenaEnv
 from mc_nested.arena.scenario_file import load_scenario
 from mc_nested.cli.watching import filmed
 from mc_nested.errors import LiveError, StoppedError
@@ -78,16 +77,15 @@ def test_a_game_that_never_begins_leaves_no_film_and_says_so(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     film = tmp_path / "film.gif"
-    with pytest.raises(LiveError), filmed(GridGame(LINE), None, LINE, film):
+    with pytest.raises(LiveError), filmed(GridGame(LINE), None, film):
         raise LiveError("the game is gone")
     assert capsys.readouterr().err == "  there is no film\n"
     assert list(tmp_path.iterdir()) == []
 
 
-def test_game_is_not_wrapped_if_no_film_is_asked_for() -> None:
-    game = GridGame(LINE)
-    with filmed(game, None, LINE, None) as same:
-        assert same is game
+def test_there_is_no_film_if_none_is_asked_for() -> None:
+    with filmed(GridGame(LINE), None, None) as film:
+        assert film is None
 
 
 def window_of(picture: Picture) -> Picture:
@@ -95,21 +93,23 @@ def window_of(picture: Picture) -> Picture:
     return picture[CAPTION : CAPTION + SMALL_ARENA_PX, SMALL_ARENA_PX + 2 * MARGIN : -MARGIN]
 
 
-def film_of(client: VirtualClient, folder: Path, play: Callable[[Game], None]) -> list[Picture]:
+def film_of(client: VirtualClient, folder: Path, *actions: Action) -> list[Picture]:
     """Return the pictures of a film of what is played on that client, and recorded."""
-    film = folder / "film.gif"
+    path = folder / "film.gif"
     opening = replace(opening_on(client, profile_in(folder)), record=folder / "recording")
-    with open_live_game(LINE, opening) as (game, display), filmed(game, display, LINE, film) as own:
-        play(own)
-    return [picture for picture, _ in pictures_of(film)]
+    with open_live_game(LINE, opening) as (game, display), filmed(game, display, path) as film:
+        assert film
+        env = ArenaEnv(game, LINE)
+        env.reset()
+        film.show(env, None)
+        for action in actions:
+            env.step(action)
+            film.show(env, None)
+    return [picture for picture, _ in pictures_of(path)]
 
 
 def test_a_films_window_shows_the_game_but_never_the_chat(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    def play(game: Game) -> None:
-        game.reset(LINE.best_material)
-        game.act(Action.BD)
-
-    (*_, picture) = film_of(VirtualClient(scale=1), tmp_path, play)
+    (*_, picture) = film_of(VirtualClient(scale=1), tmp_path, Action.BD)
     window = window_of(picture)
     assert window.shape[:2] == (SMALL_ARENA_PX, round(SMALL_ARENA_PX * 854 / 480))
     # At GUI scale 1 the chat takes 332 of 854 columns and the rows from 252 on, and all of the last 38.
@@ -123,7 +123,7 @@ def test_a_films_window_shows_the_game_but_never_the_chat(tmp_path: Path, capsys
 
 
 def test_a_window_that_is_mostly_chat_says_how_to_show_more(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    film_of(VirtualClient(scale=2), tmp_path, lambda game: [game.reset(0)].clear())
+    film_of(VirtualClient(scale=2), tmp_path)
     said = capsys.readouterr().err
     assert said.startswith("  77% of the window is where the chat may be, and stays grey in the film: ")
     assert "a smaller GUI Scale, or a larger window, shows more" in said

@@ -35,12 +35,13 @@ def test_each_run_plays_to_its_own_end() -> None:
     agent = Agent(AGENT_SPECS["nested"], [DOT, BAR], small_preset(), 0)
     always(agent, "main", 1)
     always(agent, "low", Action.BD)
-    steps: list[int] = []
-    dot, bar = play_greedily(GridVectorEnv([DOT, BAR]), [DOT, BAR], agent, lambda: steps.append(1))
+    done: list[object] = []
+    env = GridVectorEnv([DOT, BAR])
+    dot, bar = play_greedily(env, [DOT, BAR], agent, done.append, lambda: done.append("step"))
     # One step back from (7, 13), a block lands in (7, 13): DOT's only cell. Of BAR's three one lands on the design.
     assert (dot.actions, dot.score, dot.material_name(DOT)) == ([Action.BD], 11.0, "stone")
     assert (bar.actions, bar.score) == ([Action.BD] * 3, 11.0)
-    assert len(steps) == 3
+    assert done == [None, "step"] * 3 + [None]
 
 
 def test_a_run_that_never_ends_is_cut_off_at_its_step_limit() -> None:
