@@ -93,7 +93,7 @@ def test_a_benchmark_leaves_the_same_files_for_any_number_of_processes_and_after
         (["--out", "NEW", "--corpus", "none.toml"], "none.toml: can't be read"),
         (["--out", "NEW", "--corpus", "mine.toml", "--designs", "3"], "--designs is how many are drawn at random"),
         (["--out", "NEW", "--agents", "nested,dqn"], "no agent 'dqn': choose of nested, hierarchical, single, sb3"),
-        (["--out", "NEW", "--agents", "sb3"], "stable-baselines3 isn't installed: pip install"),
+        (["--out", "NEW", "--agents", "sb3"], "stable-baselines3 isn't installed: install mc-nested"),
         (["--out", "NEW", "--agents", "single", "--presets", "tuned"], "single can't take tuned: [excursions]"),
         (["--out", "NEW", "--presets", "fast"], "no preset 'fast'"),
         (["--resume", "NEW", "--designs", "3"], "--resume goes on with its own config.toml: leave out --designs"),

@@ -16,6 +16,7 @@ from mc_nested.errors import PresetError
 from mc_nested.learn.agents import AGENT_SPECS, Agent, AgentSpec
 from mc_nested.learn.episode_log import EvaluationRow
 from mc_nested.learn.evaluation import play_greedily
+from mc_nested.learn.imagination.background_practice import Foreground
 from mc_nested.learn.preset import Preset, load_preset
 from mc_nested.learn.trainer import Trainer
 from sim.grid import GridVectorEnv
@@ -34,7 +35,9 @@ def trainer_of(
     env: Any = None,
 ) -> Trainer:
     arenas = GridVectorEnv(scenarios) if env is None else env
-    return Trainer(arenas, scenarios, Agent(spec, scenarios, preset, seed), preset, seed, stops)
+    # A practice always comes to its end, however busy the machine is.
+    background = None if env is None else Foreground()
+    return Trainer(arenas, scenarios, Agent(spec, scenarios, preset, seed), preset, seed, stops, background)
 
 
 @pytest.fixture(scope="module")
