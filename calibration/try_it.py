@@ -131,7 +131,10 @@ class TryIt:
     def how_it_failed(self, error: BaseException) -> str:
         """Say where the run failed, why, and how what stood there comes back, if it isn't back already."""
         where = next((TITLES[step.step] for step in self.steps if step.failed_by), "Try-it")
-        left = f"; what stood where it built comes back with {undo_command(self._profile)}" if self._is_built else ""
+        is_back = self.steps[-1].step == "undo" and not self.steps[-1].failed_by
+        left = "; what stood where it built is back already" if is_back else ""
+        if self._is_built:
+            left = f"; what stood where it built comes back with {undo_command(self._profile)}"
         return f"{where}: {str(error) or 'stopped'}{left}"
 
     @property
@@ -225,7 +228,7 @@ class TryIt:
 def _holds_calls(recording: Path) -> bool:
     """Return whether anything was recorded: the window may not have opened."""
     with suppress(McNestedError):
-        return overview_of(recording).ended is not None
+        return bool(overview_of(recording).calls)
     return False
 
 

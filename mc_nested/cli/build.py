@@ -27,10 +27,11 @@ from mc_nested.cli.options import (
     ServerOption,
     named_scenario,
     opening_of,
+    say_aside,
 )
 from mc_nested.cli.output import JsonOption, Output, QuietOption, prints
 from mc_nested.cli.view import Viewed, ViewOption, viewed
-from mc_nested.cli.watching import VideoOption, filmed, say_aside, times_of, watched
+from mc_nested.cli.watching import VideoOption, filmed, times_of, watched
 from mc_nested.errors import ScenarioError, UserError
 from mc_nested.learn.evaluation import BuildStep, GreedyEpisode, steps_of, take_steps
 from mc_nested.learn.objectives.weights import agent_of, shipped_weights

@@ -1,6 +1,6 @@
 """Options that several verbs share: the design, where it is built, the profile, and whether a recording is kept."""
 
-from functools import partial
+import sys
 from pathlib import Path
 from typing import Annotated
 
@@ -141,14 +141,13 @@ def is_alone(context: typer.Context) -> bool:
     return False
 
 
+def say_aside(line: str) -> None:
+    """Show a line on standard error, above what a terminal shows of the run: Typer would write into that."""
+    print(line, file=sys.stderr, flush=True)
+
+
 def opening_of(
-    profile: str,
-    what: str,
-    record: str | None,
-    *,
-    server_allowed: bool = False,
-    evidence: Path | None = None,
-    backend: Backend = Backend.LIVE,
+    profile: str, what: str, record: str | None, *, server_allowed: bool = False, backend: Backend = Backend.LIVE
 ) -> Opening:
     """Return how a live run is opened, by its options; ``what``, a word or two about the run, names its recording.
 
@@ -156,8 +155,7 @@ def opening_of(
     """
     if record not in (None, OFF) and backend is not Backend.LIVE:
         raise UserError("only what is played in a window is recorded: add --backend live, or leave out --record")
-    say = partial(typer.echo, err=True)
-    return Opening(profile, say, what, record, is_server_allowed=server_allowed, evidence=evidence)
+    return Opening(profile, say_aside, what, record, is_server_allowed=server_allowed)
 
 
 def named_scenario(name: str, layer: int | None, *, must_choose: bool = False, must_reach: bool = True) -> Scenario:

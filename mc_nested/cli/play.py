@@ -19,11 +19,12 @@ from mc_nested.cli.options import (
     RunArgument,
     ServerOption,
     opening_of,
+    say_aside,
 )
 from mc_nested.cli.output import JsonOption, Output, QuietOption, prints
 from mc_nested.cli.runs import greedy_episodes
 from mc_nested.cli.view import Viewed, ViewOption, viewed
-from mc_nested.cli.watching import VideoOption, filmed, say_aside, times_of, watched
+from mc_nested.cli.watching import VideoOption, filmed, times_of, watched
 from mc_nested.errors import RunError, UserError
 from mc_nested.learn.agents import Agent
 from mc_nested.learn.dqn.engines import SCREEN
@@ -81,19 +82,12 @@ def play(  # noqa: PLR0913 - a Typer verb: a parameter for each option
     states = folder.config.preset.states
     check_window(states, backend is not Backend.SIM)
     agent, which = _choose(folder, trial)
-    opening = opening_of(
-        profile,
-        f"play-{scenario.name}",
-        record,
-        server_allowed=server_allowed,
-        evidence=folder.path / "evidence",
-        backend=backend,
-    )
+    opening = opening_of(profile, f"play-{scenario.name}", record, server_allowed=server_allowed, backend=backend)
     with viewed(view, "play", f"{scenario.name}, trial {which}, {where_words(backend)}") as viewing:
         publisher = viewing.publisher
-        window = open_game(
-            backend, scenario, replace(opening, journal=publisher.board, takeover=Takeover(publisher.offer_takeover))
-        )
+        takeover = Takeover(publisher.offer_takeover)
+        opening = replace(opening, evidence=folder.path / "evidence", journal=publisher.board, takeover=takeover)
+        window = open_game(backend, scenario, opening)
         with window as (game, display), filmed(game, display, video) as film:
             pictures = _Screenshots(folder.path / "screenshots", display) if screenshots and display else None
             is_quiet = output.quiet or output.as_json

@@ -3,6 +3,7 @@
 import socket
 from collections.abc import Iterator
 from contextlib import contextmanager
+from dataclasses import replace
 from pathlib import Path
 from typing import Annotated
 
@@ -50,7 +51,7 @@ def serve(  # noqa: PLR0913 - a Typer verb: a parameter for each option
         raise UserError("the simulator needs no game: train there with --backend sim, or serve --backend virtual")
     if backend is Backend.LIVE:
         load_profile(profile)
-    opening = opening_of(profile, "serve", OFF, server_allowed=server_allowed, evidence=evidence)
+    opening = replace(opening_of(profile, "serve", OFF, server_allowed=server_allowed), evidence=evidence)
     say = Output(quiet).note
 
     @contextmanager

@@ -21,9 +21,10 @@ from mc_nested.learn.objectives.weights import agent_of, shipped_weights
 from mc_nested.live.input.signals import signals_as_exit
 
 BEFORE = """\
-It plays in your game for some three minutes, puts back what stood there, and leaves one file that you can send.
+It plays in your game for some two minutes, puts back what stood there, and leaves one file that you can send.
 Nothing is sent by itself. In the game, before you answer:
   - open a single-player Creative world with cheats, in English, in a window; press F3+P once;
+  - from 1.21.9 on press F3+F6 and turn the block looked at on (looking_at_block, from 26.1 on looking_at_block_state);
   - go to flat, free ground; turn the debug screen on (F3), and look down at the ground before you.
 To stop: press F12, or Ctrl+C here. Every key is released."""
 
@@ -84,7 +85,10 @@ def _ask(*, yes: bool) -> None:
 
 def _ask_font() -> Path | None:
     """Ask for the game's font; None where the person doesn't know."""
-    named = typer.prompt(WHICH_FONT, default="", show_default=False)
+    while named := typer.prompt(WHICH_FONT, default="", show_default=False):
+        if Path(named).expanduser().is_file():
+            break
+        typer.echo(f"There is no file {named}.", err=True)
     return Path(named) if named else None
 
 

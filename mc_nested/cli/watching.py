@@ -15,6 +15,7 @@ from mc_nested.arena.action import Cell
 from mc_nested.arena.drawing import Picture
 from mc_nested.arena.env import ArenaEnv
 from mc_nested.arena.game import Game
+from mc_nested.cli.options import say_aside
 from mc_nested.cli.view import Viewed
 from mc_nested.errors import FilmError
 from mc_nested.live.devices import Display
@@ -80,11 +81,6 @@ def times_of(game: Game) -> list[str]:
     taken = game.log.summary() if game.log else {}
     median = taken.get("action_s", {}).get("p50")
     return [] if median is None else [f"  {median:.3f} s an action (median); {taken['share']}"]
-
-
-def say_aside(line: str) -> None:
-    """Show a line beside the episode."""
-    typer.echo(f"  {line}", err=True)
 
 
 @contextmanager

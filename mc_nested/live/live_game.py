@@ -201,7 +201,8 @@ class LiveGame:
 
     def _wait_for_the_game(self) -> None:
         """Wait until a player who has taken over during a reset gives the game back."""
-        self._say(f"The arena is only half reset: give back with {self._profile.keys.takeover}, and it is done again.")
+        key = self._profile.keys.takeover
+        self._say(f"The arena is only half reset: close the chat, give back with {key}, and it is done again.")
         while self._controller.has_yielded and not self._controller.take_back():
             self._person.check_running()
             self._clock.sleep_until(self._clock.now() + PERSON_LOOK_S)

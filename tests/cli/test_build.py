@@ -194,7 +194,7 @@ def test_after_a_mishap_a_build_starts_over_twice_at_most(
     open_live(monkeypatch, 5, LiveError("it lagged"), failures)
     assert run("build", "line", "--backend", "live", "--profile", "mine") == code
     printed = capsys.readouterr()
-    assert printed.err.splitlines().count("  it lagged; the episode starts over") == min(failures, 2)
+    assert printed.err.splitlines().count("it lagged; the episode starts over") == min(failures, 2)
     assert ("mc-nested: it lagged" in printed.err) is (code == 2)
     assert ("built 11 of 11 blocks" in printed.out) is (code == 0)
 

@@ -126,7 +126,7 @@ def test_in_a_game_it_is_said_before_the_first_block_what_is_out_of_reach(
     assert run("build", low, "--agent", "--backend", "live", "--profile", "mine") == 2
     said = capsys.readouterr().err.splitlines()
     assert said[1].startswith("  no block can land on (1, 0)")
-    assert said[2] == "  it lagged; the episode starts over"
+    assert said[2] == "it lagged; the episode starts over"
 
 
 @pytest.mark.parametrize(
@@ -287,8 +287,8 @@ def test_an_obstacle_in_a_game_that_a_reset_cannot_clear_is_an_error_and_what_wa
     assert run(*words) == 2
     said = capsys.readouterr().err.splitlines()
     why = f"cell {reached} was not reached in 8 tries, the agent is at "
-    assert [line.startswith(f"  {why}") for line in said].count(True) == 2  # it starts over twice
-    assert said[-2] == f"  film of what was played: {film}"
+    assert [line.startswith(why) for line in said].count(True) == 2  # it starts over twice
+    assert said[-2] == f"film of what was played: {film}"
     assert said[-1].startswith(f"mc-nested: {why}")
     assert "is something in the way" in said[-1]
     assert pictures_of(film)

@@ -61,7 +61,7 @@ def test_after_a_mishap_a_watched_episode_starts_over_twice_at_most(
     capsys.readouterr()
     assert run("play", tmp_path / "run", "--backend", "live", "--profile", "mine") == code
     told = capsys.readouterr().err.splitlines()
-    assert told.count("  it lagged; the episode starts over") == min(failures, 2)
+    assert told.count("it lagged; the episode starts over") == min(failures, 2)
     assert ("mc-nested: it lagged" in told) is (code == 2)
 
 

@@ -56,7 +56,7 @@ def test_stopped_episode_leaves_a_film_of_the_steps_played(
     film = tmp_path / "film.gif"
     assert played(optimal, film) == 2
     said = capsys.readouterr().err.splitlines()
-    assert said[-2:] == [f"  film of what was played: {film}", "mc-nested: stopped by f12"]
+    assert said[-2:] == [f"film of what was played: {film}", "mc-nested: stopped by f12"]
     assert 1 <= len(pictures_of(film)) <= 6
 
 
@@ -79,7 +79,7 @@ def test_a_game_that_never_begins_leaves_no_film_and_says_so(
     film = tmp_path / "film.gif"
     with pytest.raises(LiveError), filmed(GridGame(LINE), None, film):
         raise LiveError("the game is gone")
-    assert capsys.readouterr().err == "  there is no film\n"
+    assert capsys.readouterr().err == "there is no film\n"
     assert list(tmp_path.iterdir()) == []
 
 
@@ -125,5 +125,5 @@ def test_a_films_window_shows_the_game_but_never_the_chat(tmp_path: Path, capsys
 def test_a_window_that_is_mostly_chat_says_how_to_show_more(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     film_of(VirtualClient(scale=2), tmp_path)
     said = capsys.readouterr().err
-    assert said.startswith("  77% of the window is where the chat may be, and stays grey in the film: ")
+    assert said.startswith("77% of the window is where the chat may be, and stays grey in the film: ")
     assert "a smaller GUI Scale, or a larger window, shows more" in said

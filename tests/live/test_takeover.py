@@ -295,7 +295,11 @@ def test_a_player_who_leaves_the_arena_is_told_what_to_do_and_may_come_back() ->
     table.take_over(out_and_back)
     outcomes = table.until_given_back(Action.L)
     assert [each.instead for each in outcomes] == [Action.B]
-    assert table.said == ["You have left the arena: come back, or give back with f9."]
+    assert table.said == [
+        "You play now: give back with f9.",
+        "You have left the arena: come back, or give back with f9.",
+        "The agent plays again.",
+    ]
 
 
 def test_a_game_given_back_outside_the_arena_ends_the_episode() -> None:
@@ -317,6 +321,7 @@ def test_a_reset_borrows_the_game_from_the_player_who_gets_it_again() -> None:
     table.game.reset(STONE)
     assert table.truth == (DIAMOND.start, set())
     assert table.said == [
+        "You play now: give back with f9.",
         "The episode is over: hands off while the arena is reset.",
         "The arena is reset: it is yours again.",
     ]
@@ -333,7 +338,7 @@ def test_taking_over_during_a_reset_stops_it_until_the_game_is_given_back() -> N
     began = clock.now()
     assert table.game.reset(STONE) == DIAMOND.start == table.client.cell(table.arena)
     assert clock.now() - began > 5.4
-    assert table.said == ["The arena is only half reset: give back with f9, and it is done again."]
+    assert table.said == ["The arena is only half reset: close the chat, give back with f9, and it is done again."]
     assert table.ours.forbidden == []
     assert table.game.act(Action.B) == Outcome((7, 13), None)
 
@@ -440,6 +445,10 @@ def test_without_cheats_the_player_turns_the_view_back_before_the_agent_goes_on(
     table.hands.play(turned(table.hands))
     cell = check_said(table.until_given_back(Action.B), cell, placed)
     assert client.clock.now() - began > 3.0
-    assert table.said == ["Before the agent can go on: the view is 40 / 65, not 0 / 65."]
+    assert table.said == [
+        "You play now: give back with f9.",
+        "Before the agent can go on: the view is 40 / 65, not 0 / 65.",
+        "The agent plays again.",
+    ]
     assert table.last == Outcome((7, 12), None)
     assert table.truth == ((7, 12), {(7, 14)})

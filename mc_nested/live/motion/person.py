@@ -25,6 +25,8 @@ from mc_nested.live.profile.tables import Profile
 STILL_S = 0.25
 """Seconds without a change after which a player stands still, and looks at what the screen names (five ticks)."""
 
+STOPPED = "the run was stopped while the player had the game"
+
 MOST_HELD = 2
 """Moves that are held back: the screen may show a block when its player has gone on from there."""
 
@@ -70,6 +72,7 @@ class Person:
         if not self._ahead and self._controller.has_yielded:
             self._journal.note("follows")
             self._walk = self._walk or [cell]
+            self._say_once(f"You play now: give back with {self._key}.")
             while not self._ahead and self._controller.has_yielded:
                 self.check_running()
                 self._look(built, shown_id)
@@ -80,7 +83,7 @@ class Person:
         """Raise StoppedError after a panic, TakenOverError where the run shall stop."""
         self._controller.check_stopped()
         if self._takeover.is_stopped():
-            raise TakenOverError("the run was stopped while the player had the game")
+            raise TakenOverError(STOPPED)
 
     def _look(self, built: Mapping[Cell, str], shown_id: str) -> None:
         """Take in what is seen now. What can't be read, as behind a menu, is the player's own business."""
@@ -107,7 +110,8 @@ class Person:
             self._tell(1, None, built)
         elif is_still and self._looks_right(pose) and self._controller.take_back():
             self._tell(len(self._walk) - 1, None, built)
-            self._walk, self._said = [], ""
+            self._walk = []
+            self._say_once("The agent plays again.")
 
     def _tell(self, place: int, block: Cell | None, built: Mapping[Cell, str]) -> None:
         """Tell the walk up to a place in it, and a block that was placed there."""

@@ -202,7 +202,6 @@ class Overview:
     what: Annotated[str | None, "what was recorded, as build-house"] = None
     version: Annotated[str | None, "of mc-nested that wrote it"] = None
     began: Annotated[datetime.datetime | None, "local time; null if it holds no call"] = None
-    ended: Annotated[datetime.datetime | None, "local time"] = None
     seconds: Annotated[float | None, "its length"] = None
     calls: Annotated[int | None, "of devices, screen and journal"] = None
     actions: Annotated[int | None, "in it"] = None
@@ -225,9 +224,9 @@ def overview_of(path: Path) -> Overview:
         pictures += len(each.pictures)
         actions += each.call[:2] == ["note", "acts"]
     what, version = (facts.get(name, "unknown") for name in ("what", "version"))
-    began, ended, seconds = None, None, 0.0
+    began, seconds = None, 0.0
     if times:
-        began, ended = (datetime.datetime.fromtimestamp(at / 1e9) for at in (times[0], times[-1]))
+        began = datetime.datetime.fromtimestamp(times[0] / 1e9)
         seconds = (times[-1] - times[0]) / 1e9
     size = sum(part.stat().st_size for part in parts_of(path))
-    return Overview(path, what, version, began, ended, seconds, len(times), actions, pictures, size, tuple(damage))
+    return Overview(path, what, version, began, seconds, len(times), actions, pictures, size, tuple(damage))

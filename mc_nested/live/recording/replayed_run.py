@@ -15,12 +15,14 @@ import numpy as np
 
 from mc_nested.arena.action import Action
 from mc_nested.arena.scenario_file import parse_scenario
-from mc_nested.errors import LiveError, RecordingError
+from mc_nested.errors import DesktopError, LiveError, RecordingError
 from mc_nested.live.connection import GameConnection, overlay_of
 from mc_nested.live.devices import Frame
 from mc_nested.live.input.input_controller import InputController
+from mc_nested.live.input.stops import Takeover
 from mc_nested.live.live_game import LiveGame
 from mc_nested.live.menus.click_points import ClickPoint
+from mc_nested.live.motion.person import STOPPED
 from mc_nested.live.profile.store import parse_profile
 from mc_nested.live.profile.tables import Profile
 from mc_nested.live.recording.recording_file import Lost, facts_of, read_recording
@@ -106,7 +108,16 @@ class _Player:
             scenario = parse_scenario(facts["scenario"], f"{path}: its scenario")
             # Their pictures aren't recorded: a screen that was known by one of them can't be followed.
             points = {name: ClickPoint(name, at, NOTHING) for name, at in profile.points.items()}
-            self._game = LiveGame(scenario, profile, connection, points=points, restore=lambda _world, _template: None)
+            stopped = ["note", "fails", {"problem": STOPPED}]
+            takeover = Takeover(is_stopped=lambda: self._tape.peek() == stopped)
+            self._game = LiveGame(
+                scenario,
+                profile,
+                connection,
+                points=points,
+                restore=lambda _world, _template: None,
+                takeover=takeover,
+            )
 
     def play(self) -> Replayed:
         while (call := self._tape.peek()) is not None:
@@ -125,7 +136,7 @@ class _Player:
         game.go_on_from(placed, facts["pressed"], (real, imaginary, weight), chat)
         tape.is_followed = True
         try:
-            with suppress(LiveError):  # as it was then, or its note would have differed
+            with suppress(LiveError, DesktopError):  # as it was then, or its note would have differed
                 game.reset(int(facts["material"]))
             while (call := tape.peek()) is not None and call[:2] != ["note", "resets"]:
                 if call[:2] != ["note", "acts"]:
@@ -134,14 +145,20 @@ class _Player:
                 self.seen.actions += 1
                 facts = call[2]
                 following = (Action(then[0]), then[1]) if (then := facts.get("following")) else None
-                with suppress(LiveError):
+                with suppress(LiveError, DesktopError):
                     game.act(Action(facts["action"]), facts.get("material"), following)
                 self.seen.followed += 1
         except OtherCall as other:
-            if tape.peek() is not None and tape.stop_reason is None:
+            if tape.peek() is not None and tape.stop_reason is None and not self._was_ended():
                 self._differs("decision", _words(other.then), _words(other.now))
         finally:
             tape.is_followed = False
+
+    def _was_ended(self) -> bool:
+        """Return whether the run ended here, as by Ctrl+C: what was held was released, and nothing else was done."""
+        while (call := self._tape.peek()) is not None and call[1] == "release":
+            self._tape.skip()
+        return call is not None and call[:2] == ["error", "run"]
 
     def _pass_by(self, call: list[Any]) -> None:
         """Pass by a call; compare nothing but its reading."""

@@ -230,3 +230,37 @@ def test_recording_of_another_format_is_refused_in_one_line(facts: dict[str, str
     for refused in (lambda: replay(file, FONT), lambda: font_of_recording(file, System("linux", tmp_path, {}))):
         with pytest.raises(RecordingError, match=r"other\.mcap: is of another version of mc-nested: .* record the run"):
             refused()
+
+
+PRESSED = ["key", "press"]
+
+
+@pytest.mark.parametrize(
+    "ending",
+    [
+        [["error", "run", "KeyboardInterrupt", ""]],
+        [["error", "front", "DesktopError", "it has closed"], ["error", "run", "DesktopError", "it has closed"]],
+    ],
+    ids=["Ctrl+C", "window closed"],
+)
+def test_a_run_that_ended_in_the_middle_of_an_action_differs_in_nothing(
+    ending: list[list[str]], recording: Path, tmp_path: Path
+) -> None:
+    calls = calls_of(recording)
+    last = max(at for at, each in enumerate(calls) if each.call[:2] == PRESSED and each.call[2] == "w")
+    front = next(at for at in range(last, len(calls)) if calls[at].call[0] == "front")
+    released = ["key", "release", "w"]
+    at_end = [released, *ending] if ending[0][1] == "run" else [ending[0], released, ending[1]]
+    ended = [*calls[:front], *(TimedCall(calls[front].at, call) for call in at_end)]
+    seen = replay(written(tmp_path / "ended.mcap", ended, dict(facts_of(recording))), FONT)
+    assert seen.differences == []
+    assert seen.actions > 40
+
+
+def test_a_run_that_goes_on_after_another_decision_differs(recording: Path, tmp_path: Path) -> None:
+    calls = calls_of(recording)
+    last = max(at for at, each in enumerate(calls) if each.call[:2] == PRESSED and each.call[2] == "w")
+    front = next(at for at in range(last, len(calls)) if calls[at].call[0] == "front")
+    released = TimedCall(calls[front].at, ["key", "release", "w"])
+    changed = written(tmp_path / "changed.mcap", [*calls[:front], released, *calls[front:]], dict(facts_of(recording)))
+    assert [each.kind for each in replay(changed, FONT).differences] == ["decision"]
