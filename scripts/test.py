@@ -78,7 +78,7 @@ STATIC = {
 
 UNIT = ["pytest", "-n", "2", "--dist", "loadfile", "-m", f"not ({OTHERS})"]
 
-COMMIT = {**STATIC, "unit tests": SuiteCheck(UNIT, 3)}
+COMMIT = {**STATIC, "unit tests": SuiteCheck(UNIT, 7)}
 """What a commit must pass."""
 
 ALL = {
@@ -88,14 +88,14 @@ ALL = {
     "compiled code in plain Python": SuiteCheck(
         ["pytest", *KERNELS, "--cov", "--cov-report=", "--cov-fail-under=0"], 0.3, {"NUMBA_DISABLE_JIT": "1"}
     ),
-    "unit tests": SuiteCheck([*UNIT, "--hypothesis-profile=all", "--cov", "--cov-append", "--cov-report="], 5),
+    "unit tests": SuiteCheck([*UNIT, "--hypothesis-profile=all", "--cov", "--cov-append", "--cov-report="], 10),
     "branch coverage": SuiteCheck(["coverage", "report", "--skip-covered"], 0.2),
     "slow tests": SuiteCheck(
-        ["pytest", "-n", "2", "--dist", "loadgroup", "-m", f"slow and not ({REAL})"], 28, is_beside=True
+        ["pytest", "-n", "2", "--dist", "loadgroup", "-m", f"slow and not ({REAL})"], 36, is_beside=True
     ),
     "real-time tests": SuiteCheck(
         ["pytest", "-n", "2", "--dist", "loadgroup", "-m", "realtime or window or wine"],
-        18,
+        21,
         downloads="2.2 GB for Wine, a Windows Python, Java and an input method",
     ),
     "stand-in tests": SuiteCheck(["pytest", "-m", "standin"], 6, downloads="0.8 GB for the stand-in, a browser's game"),

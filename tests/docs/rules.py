@@ -25,6 +25,7 @@ SIZES = {
     "mc-nested train --scenario flag --preset tuned": "--trials 1 --episodes 20",
     "mc-nested train --trials 10": "--trials 1 --episodes 30",
     "mc-nested train --scenario line --trials 10": "--episodes 1000",
+    "mc-nested train --from line-agent": "--episodes 60",
     "mc-nested train --scenario line --builders 2": "--trials 1 --episodes 20",
     "mc-nested train --preset paper --scenario line --agent nested --trials 10": "--trials 1 --episodes 30",
     "python scripts/examples/nested_dqn.py": "--trials 1 --episodes 60",
@@ -104,6 +105,10 @@ FILES: dict[str, Callable[[], bytes]] = {
 BEFORE = {
     "mc-nested build house --agent --backend live": (CALIBRATE,),
     "mc-nested calibrate arena": (CALIBRATE, "mc-nested calibrate arena --undo"),
+    "mc-nested train --from line-agent": (
+        "mc-nested train --episodes 60 --out runs/line",
+        "mc-nested runs export runs/line --out line-agent",
+    ),
     **dict.fromkeys(
         ("mc-nested train --resume runs/two", "mc-nested runs evaluate runs/two"),
         ("mc-nested train --builders 2 --episodes 20 --out runs/two",),
