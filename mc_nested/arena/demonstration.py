@@ -35,9 +35,11 @@ class ShownGame:
     resumable = log = None
 
     def __init__(self, shown: Demonstration, start: Cell) -> None:
-        self._start, self._left = start, iter(shown.steps)
+        self._start, self._steps = start, shown.steps
+        self._left = iter(self._steps)
 
     def reset(self, material: int) -> Cell:  # noqa: ARG002 - what was in hand then is known
+        self._left = iter(self._steps)
         return self._start
 
     def act(self, action: Action, material: int | None = None, following: Following | None = None) -> Outcome:  # noqa: ARG002 - it is known

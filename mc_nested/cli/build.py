@@ -27,9 +27,8 @@ from mc_nested.cli.options import (
     ServerOption,
     named_scenario,
     opening_of,
-    say_aside,
 )
-from mc_nested.cli.output import JsonOption, Output, QuietOption, prints
+from mc_nested.cli.output import JsonOption, Output, QuietOption, prints, say_aside
 from mc_nested.cli.view import Viewed, ViewOption, viewed
 from mc_nested.cli.watching import VideoOption, filmed, times_of, watched
 from mc_nested.errors import ScenarioError, UserError

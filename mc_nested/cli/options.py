@@ -1,6 +1,5 @@
 """Options that several verbs share: the design, where it is built, the profile, and whether a recording is kept."""
 
-import sys
 from pathlib import Path
 from typing import Annotated
 
@@ -9,6 +8,7 @@ import typer
 from mc_nested.arena.scenario import DEFAULT_SIZE, Scenario
 from mc_nested.arena.scenario_file import shipped_scenarios
 from mc_nested.cli.completion import complete_of, complete_profiles, complete_runs
+from mc_nested.cli.output import say_aside
 from mc_nested.design_files.load import Loaded, load_any_scenario
 from mc_nested.errors import UserError
 from mc_nested.learn.preset import shipped_presets
@@ -139,11 +139,6 @@ def is_alone(context: typer.Context) -> bool:
             raise UserError(f"write {option} at the end: {verb} {option}")
         raise UserError(f"{verb} takes no {option}: leave it out")
     return False
-
-
-def say_aside(line: str) -> None:
-    """Show a line on standard error, above what a terminal shows of the run: Typer would write into that."""
-    print(line, file=sys.stderr, flush=True)
 
 
 def opening_of(

@@ -11,6 +11,7 @@ import dataclasses
 import datetime
 import json
 import math
+import sys
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Annotated, Any, TypeVar, get_type_hints
@@ -97,6 +98,11 @@ class Output:
     def progress(self) -> Console:
         """Where progress is shown."""
         return Console(stderr=True, quiet=self.quiet)
+
+
+def say_aside(line: str) -> None:
+    """Show a line on standard error, above what a terminal shows of the run: Typer would write into that."""
+    print(line, file=sys.stderr, flush=True)
 
 
 def print_line(console: Console, line: str) -> None:

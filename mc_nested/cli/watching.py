@@ -15,7 +15,7 @@ from mc_nested.arena.action import Cell
 from mc_nested.arena.drawing import Picture
 from mc_nested.arena.env import ArenaEnv
 from mc_nested.arena.game import Game
-from mc_nested.cli.options import say_aside
+from mc_nested.cli.output import say_aside
 from mc_nested.cli.view import Viewed
 from mc_nested.errors import FilmError
 from mc_nested.live.devices import Display

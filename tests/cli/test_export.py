@@ -126,7 +126,7 @@ def test_the_card_has_the_runs_figures(exported: Path, trained: Path) -> None:
         "| seed of all random choices | 3 |",
         "| training episodes, all trials | 80 of at most 80 |",
         "| of these, shown by a person | 0 |",
-        "| training ended | after all episodes |",
+        "| training ends | after all episodes |",
     ):
         assert row in text
     assert "mc-nested play model" in text

@@ -34,7 +34,7 @@ never been tried in the real game, only in what stands in for it.
 | seed of all random choices | {seed} |
 | training episodes, all trials | {done:,} of at most {most:,} |
 | of these, shown by a person | {demonstrated:,} |
-| training ended | {ended} |
+| training ends | {ends} |
 | score of each trial's greedy episode | {scores} |
 | highest score possible | {optimum:g} |
 
@@ -79,7 +79,7 @@ def _card_of(run: RunFolder, name: str) -> str:
         done=done,
         most=config.preset.episodes * config.trials,
         demonstrated=demonstrated,
-        ended="at the first greedy episode at the optimum" if config.stop_at_optimum else "after all episodes",
+        ends="at the first greedy episode at the optimum" if config.stop_at_optimum else "after all episodes",
         version=importlib.metadata.version("mc-nested"),
         scores=", ".join("not finished" if score is None else f"{score:g}" for score in scores),
         optimum=run.scenario.optimum,
