@@ -53,7 +53,7 @@ SEED = 1
 
 
 @dataclass
-class TriedStep:
+class TryItStep:
     """A step as it went, without names: its time, mishaps, and the traceback of what it failed by."""
 
     step: str
@@ -85,7 +85,7 @@ class TryIt:
         names: Names,
         font: Path | None = None,
     ) -> None:
-        self.steps: list[TriedStep] = []
+        self.steps: list[TryItStep] = []
         self._folder, self._profile, self._recordings = folder, folder / "profile.toml", folder / "recordings"
         self._opening, self._look, self._names, self._font = opening, examine, names, font
         self._checks: Sequence[Check] = ()
@@ -108,7 +108,7 @@ class TryIt:
             raise
 
     def _take(self, name: str, take: Callable[[], None]) -> None:
-        step, began = TriedStep(name), time.monotonic()
+        step, began = TryItStep(name), time.monotonic()
         self.steps.append(step)
         try:
             take()

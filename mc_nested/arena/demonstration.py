@@ -7,7 +7,7 @@ from mc_nested.arena.action import Action, Cell
 from mc_nested.arena.game import Following, Outcome
 
 
-class Step(NamedTuple):
+class ShownStep(NamedTuple):
     """An action, the material that was in hand then, and what was confirmed of it, at which time."""
 
     action: Action
@@ -24,7 +24,7 @@ class Demonstration:
     """
 
     material: int
-    steps: list[Step]
+    steps: list[ShownStep]
     began: float = 0.0
     is_whole: bool = False
 

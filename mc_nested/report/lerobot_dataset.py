@@ -19,7 +19,7 @@ from mc_nested.arena.scenario import Scenario
 from mc_nested.arena.scenario_file import draw_grid
 from mc_nested.errors import RecordingError
 from mc_nested.live.profile.tables import KeysTable
-from mc_nested.live.recording.demonstrations import Played
+from mc_nested.live.recording.demonstrations import RecordedPlay
 from mc_nested.live.recording.frames import PlayedFrame, frames_of
 from mc_nested.report.film_file import Mp4Encoder
 
@@ -40,7 +40,7 @@ def task_of(scenario: Scenario) -> str:
     return f"Build {scenario.name}, seen from above, the far edge on top:\n{draw_grid(scenario.design, scenario.size)}"
 
 
-def write_lerobot(folder: Path, recordings: Sequence[Played], fps: int) -> str:
+def write_lerobot(folder: Path, recordings: Sequence[RecordedPlay], fps: int) -> str:
     """Write recordings into an empty folder, so many frames a second; return how many frames that is, in words.
 
     Raise RecordingError if their windows have different sizes, FilmError or OSError if they can't be written.
@@ -113,7 +113,7 @@ def write_lerobot(folder: Path, recordings: Sequence[Played], fps: int) -> str:
     return f"{len(frames):,} frames"
 
 
-def _filmed(file: Path, recordings: Sequence[Played], fps: int) -> list[PlayedFrame]:
+def _filmed(file: Path, recordings: Sequence[RecordedPlay], fps: int) -> list[PlayedFrame]:
     """Write the video; return its frames, of whose pictures some dots are left."""
     encoder = Mp4Encoder(file, fps, whole_every=10)
     frames: list[PlayedFrame] = []

@@ -14,13 +14,13 @@ from mc_nested.arena.demonstration import Demonstration, ShownGame
 from mc_nested.arena.env import ArenaEnv, action_space_of, highest_observation, space_up_to, step_in
 from mc_nested.arena.scenario import Scenario
 from mc_nested.errors import RecordingError
-from mc_nested.live.recording.demonstrations import Played
+from mc_nested.live.recording.demonstrations import RecordedPlay
 
 _UNSAID = {"placed": (-1, -1), "score": np.nan, "earned": 0.0, "chooses": True}
 """What stands for a fact that a step's info doesn't have; the last two come with parts alone."""
 
 
-def write_minari(folder: Path, recordings: Sequence[Played]) -> str:
+def write_minari(folder: Path, recordings: Sequence[RecordedPlay]) -> str:
     """Write recordings into an empty folder of datasets; return the dataset's id, as "line-v0".
 
     Raise RecordingError if they are of different designs, OSError if the disk refuses.

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from mc_nested.arena.builder import build
-from mc_nested.arena.demonstration import Demonstration, Step
+from mc_nested.arena.demonstration import Demonstration, ShownStep
 from mc_nested.arena.scenario_file import load_scenario
 from mc_nested.learn.agents import AGENT_SPECS, Agent
 from mc_nested.learn.preset import load_preset
@@ -21,7 +21,7 @@ def shown_line() -> Demonstration:
     """Return the line as the scripted builder builds it, of stone."""
     game = GridGame(LINE)
     game.reset(STONE)
-    return Demonstration(STONE, [Step(action, STONE, game.act(action)) for action in build(LINE)])
+    return Demonstration(STONE, [ShownStep(action, STONE, game.act(action)) for action in build(LINE)])
 
 
 @pytest.mark.parametrize("name", AGENT_SPECS)

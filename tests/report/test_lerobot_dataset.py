@@ -10,7 +10,7 @@ import numpy as np
 import pyarrow.parquet as pq
 import pytest
 
-from mc_nested.live.recording.demonstrations import Played, played_in
+from mc_nested.live.recording.demonstrations import RecordedPlay, played_in
 from mc_nested.live.recording.frames import frames_of
 from mc_nested.report.lerobot_dataset import WINDOW, task_of, write_lerobot
 from scripts.programs import ROOT
@@ -24,7 +24,7 @@ FIRST = "chunk-000/file-000"
 
 
 @pytest.fixture(scope="module")
-def played(tmp_path_factory: pytest.TempPathFactory) -> list[Played]:
+def played(tmp_path_factory: pytest.TempPathFactory) -> list[RecordedPlay]:
     """Return two recordings: of two episodes of the diamond, and of one of the line."""
     folder = tmp_path_factory.mktemp("play") / "play"
     record_play(folder, 28, seed=5)
@@ -32,7 +32,7 @@ def played(tmp_path_factory: pytest.TempPathFactory) -> list[Played]:
 
 
 @pytest.fixture(scope="module")
-def dataset(played: list[Played], tmp_path_factory: pytest.TempPathFactory) -> Path:
+def dataset(played: list[RecordedPlay], tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder = tmp_path_factory.mktemp("dataset")
     write_lerobot(folder, played, FPS)
     return folder
@@ -64,7 +64,7 @@ def test_episodes_follow_each_other_without_a_gap(dataset: Path) -> None:
     assert end == pq.read_table(dataset / f"data/{FIRST}.parquet").num_rows
 
 
-def test_each_row_is_the_recordings_frame(dataset: Path, played: list[Played]) -> None:
+def test_each_row_is_the_recordings_frame(dataset: Path, played: list[RecordedPlay]) -> None:
     keys = json.loads((dataset / "meta/info.json").read_text())["features"]["action"]["names"]
     rows = pq.read_table(dataset / f"data/{FIRST}.parquet").to_pylist()
     frames = [frame for each in played for frame in frames_of(each, FPS)]
@@ -86,7 +86,7 @@ def install(folder: Path) -> None:
 @pytest.mark.slow
 @pytest.mark.skipif(not sys.platform.startswith("linux"), reason="its environment is locked as on Linux")
 def test_lerobot_itself_reads_it(
-    dataset: Path, played: list[Played], tmp_path: Path, tmp_path_factory: pytest.TempPathFactory
+    dataset: Path, played: list[RecordedPlay], tmp_path: Path, tmp_path_factory: pytest.TempPathFactory
 ) -> None:
     packages = made_once("lerobot", install, tmp_path_factory)
     frames = [frame for each in played for frame in frames_of(each, FPS)]

@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Any
 
 from mc_nested.arena.action import Action, Cell
-from mc_nested.arena.demonstration import Demonstration, Step
+from mc_nested.arena.demonstration import Demonstration, ShownStep
 from mc_nested.arena.game import Outcome
 from mc_nested.arena.rules import end_of_episode, is_inside
 from mc_nested.arena.scenario import Scenario
@@ -16,7 +16,7 @@ from mc_nested.live.recording.recording_file import Lost, TimedCall, facts_of, r
 
 
 @dataclass
-class Played:
+class RecordedPlay:
     """The episodes of a recording that have an action, its window's width and height, and what is damaged.
 
     ``left_out`` counts actions that failed, that an unknown one came before, or that came behind an episode's end.
@@ -30,7 +30,7 @@ class Played:
     damage: list[str] = field(default_factory=list)
 
 
-def played_in(path: Path) -> Played:
+def played_in(path: Path) -> RecordedPlay:
     """Return what was played in a recording.
 
     Raise RecordingError if no action of a design's was confirmed in it, or an episode leaves the arena.
@@ -41,7 +41,7 @@ def played_in(path: Path) -> Played:
     scenario = parse_scenario(facts["scenario"], f"{path}: its scenario")
     try:
         width, height = map(int, facts["size"].split("x"))
-        played = Played(path, scenario, (width, height))
+        played = RecordedPlay(path, scenario, (width, height))
         _follow(played)
     except (KeyError, ValueError, TypeError) as error:
         raise RecordingError(f"{path}: its notes are damaged ({error!r}): name another recording") from error
@@ -83,7 +83,7 @@ def timed(path: Path) -> Iterator[tuple[float, TimedCall | Lost]]:
         yield now, each
 
 
-def _follow(played: Played) -> None:
+def _follow(played: RecordedPlay) -> None:
     """Fill in what the recording's notes say."""
     scenario = played.scenario
     episode: Demonstration | None = None
@@ -105,14 +105,14 @@ def _follow(played: Played) -> None:
         elif kind == "done" and episode is not None and material is not None:
             action, material = Action(told.get("instead", asked["action"])), asked.get("material", material)
             outcome = Outcome(_cell(told["cell"], played), told["placed"] and _cell(told["placed"], played), action)
-            episode.steps.append(Step(action, material, outcome, now))
+            episode.steps.append(ShownStep(action, material, outcome, now))
             played.left_out -= 1
             placed = {step.outcome.placed for step in episode.steps} - {None}
             if any(end_of_episode(scenario.blocks - len(placed), len(episode.steps), scenario.step_limit)):
                 episode.is_whole, episode = True, None
 
 
-def _cell(value: Any, played: Played) -> Cell:
+def _cell(value: Any, played: RecordedPlay) -> Cell:
     x, y = value
     cell = int(x), int(y)
     if not is_inside(cell, played.scenario.size):

@@ -12,10 +12,10 @@ from typing import Any
 
 import numpy as np
 
-from mc_nested.arena.demonstration import Demonstration, Step
+from mc_nested.arena.demonstration import Demonstration, ShownStep
 from mc_nested.live.devices import Frame
 from mc_nested.live.recording.call_encoder import draw
-from mc_nested.live.recording.demonstrations import Played, timed
+from mc_nested.live.recording.demonstrations import RecordedPlay, timed
 from mc_nested.live.recording.recording_file import Lost
 from mc_nested.live.recording.text_pixels import TextPixels, paint
 from mc_nested.live.vision.chat_region import BLANK
@@ -32,13 +32,13 @@ class PlayedFrame:
     """
 
     episode: int
-    step: Step
+    step: ShownStep
     picture: Frame
     pose: tuple[float, ...]
     held: set[str]
 
 
-def frames_of(played: Played, fps: int) -> Iterator[PlayedFrame]:
+def frames_of(played: RecordedPlay, fps: int) -> Iterator[PlayedFrame]:
     """Return the frames of all episodes, so many a second, each from its beginning to the end of its last step."""
     due = deque(
         (at, index, step) for index, episode in enumerate(played.episodes) for at, step in _moments_of(episode, fps)
@@ -81,7 +81,7 @@ def _down_after(call: list[Any], held: set[str]) -> set[str]:
     return held
 
 
-def _moments_of(episode: Demonstration, fps: int) -> Iterator[tuple[float, Step | None]]:
+def _moments_of(episode: Demonstration, fps: int) -> Iterator[tuple[float, ShownStep | None]]:
     """Return when each frame of an episode is, and its step; at last the episode's end, with None."""
     ends = [step.ended for step in episode.steps]
     count = math.ceil((ends[-1] - episode.began) * fps - 1e-9)

@@ -11,7 +11,7 @@ from mc_nested.arena.action import Cell
 from mc_nested.arena.rules import landing, moved
 from mc_nested.arena.scenario_file import load_scenario
 from mc_nested.errors import RecordingError
-from mc_nested.live.recording.demonstrations import Played, demonstrations_in, played_in
+from mc_nested.live.recording.demonstrations import RecordedPlay, demonstrations_in, played_in
 from mc_nested.live.recording.recording_file import PartWriter, TimedCall, facts_of, read_recording
 from scripts.benches.person import clumsy
 from scripts.benches.teach import NEEDLESS, WRONG, record_a_build
@@ -70,7 +70,7 @@ def write(path: Path, facts: Mapping[str, str], calls: list[tuple[int, list[Any]
     writer.close()
 
 
-def steps_told(played: Played) -> list[tuple[int, list[int], list[int] | None]]:
+def steps_told(played: RecordedPlay) -> list[tuple[int, list[int], list[int] | None]]:
     return [
         (int(step.action), list(step.outcome.cell), step.outcome.placed and list(step.outcome.placed))
         for episode in played.episodes
